@@ -1,0 +1,130 @@
+// In-process timings of the stages on a generated torus grid, beside CGAL's Doo-Sabin in the same
+// run. `vox_bench --benchmark_format=json` prints JSON; see --help for more.
+
+#include "libvox/pipeline/convert.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "libvox/subdivide/stop.h"
+#include "libvox/voxelize/vertex.h"
+
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+
+#ifdef VOX_HAVE_CGAL
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/subdivision_method_3.h>
+#endif
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace vox;
+
+/// Closed torus of 64 x 32 quads, major radius 1, minor 0.4.
+PolygonMesh torus() {
+  constexpr Index kMajor = 64;
+  constexpr Index kMinor = 32;
+  PolygonMesh mesh;
+  for (Index i = 0; i < kMajor; ++i)
+    for (Index j = 0; j < kMinor; ++j) {
+      const double u = 2 * std::numbers::pi * i / kMajor;
+      const double v = 2 * std::numbers::pi * j / kMinor;
+      const double r = 1 + 0.4 * std::cos(v);
+      mesh.points.emplace_back(r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v));
+    }
+  const auto at = [](Index i, Index j) { return i % kMajor * kMinor + j % kMinor; };
+  for (Index i = 0; i < kMajor; ++i)
+    for (Index j = 0; j < kMinor; ++j)
+      mesh.addFace(std::vector<Index>{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+  return mesh;
+}
+
+constexpr int kLevels = 5;
+
+void countVertices(benchmark::State& state, std::size_t vertices) {
+  state.counters["vertices/s"] = benchmark::Counter(static_cast<double>(vertices),
+                                                    benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void dooSabin(benchmark::State& state) {
+  const tbb::global_control most(tbb::global_control::max_allowed_parallelism,
+                                 static_cast<std::size_t>(state.range(0)));
+  const SubdivisionLevel base = baseLevel(torus());
+  std::size_t vertices = 0;
+  for (auto _ : state) vertices = subdivide(base, kLevels).mesh.points.size();
+  countVertices(state, vertices);
+}
+BENCHMARK(dooSabin)
+    ->Arg(1)
+    ->Arg(2)
+    ->ArgName("threads")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+#ifdef VOX_HAVE_CGAL
+void cgalDooSabin(benchmark::State& state) {
+  using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+  const PolygonMesh base = torus();
+  Mesh oracle;
+  for (const Vec3d& p : base.points) oracle.add_vertex({p.x(), p.y(), p.z()});
+  for (Index f = 0; f < base.faceCount(); ++f) {
+    std::vector<Mesh::Vertex_index> face;
+    for (const Index v : base.face(f)) face.emplace_back(v);
+    oracle.add_face(face);
+  }
+  std::size_t vertices = 0;
+  for (auto _ : state) {
+    Mesh mesh = oracle;
+    CGAL::Subdivision_method_3::DooSabin_subdivision(
+        mesh, CGAL::parameters::number_of_iterations(kLevels));
+    vertices = mesh.number_of_vertices();
+  }
+  countVertices(state, vertices);
+}
+BENCHMARK(cgalDooSabin)->Unit(benchmark::kMillisecond)->UseRealTime();
+#endif
+
+void largestSpan(benchmark::State& state) {
+  const SubdivisionLevel level = subdivide(baseLevel(torus()), kLevels - 1);
+  const auto image = imageVertices(level.mesh);
+  for (auto _ : state) benchmark::DoNotOptimize(largestChildSpan(level, image));
+  countVertices(state, image.size());
+}
+BENCHMARK(largestSpan)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void vertexConversion(benchmark::State& state) {
+  const SubdivisionLevel level = subdivide(baseLevel(torus()), kLevels);
+  std::vector<Vec3d> index = level.mesh.points;
+  for (Vec3d& p : index) p *= 400;
+  for (auto _ : state) {
+    openvdb::MaskGrid mask;
+    markVertices(index, mask);
+  }
+  countVertices(state, index.size());
+}
+BENCHMARK(vertexConversion)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void wholeConversion(benchmark::State& state) {
+  Scene scene;
+  scene.objects.push_back({"torus", torus()});
+  ConvertOptions options;
+  options.dim = static_cast<int>(state.range(0));
+  options.grids = std::vector{GridKind::kMask};
+  std::uint64_t voxels = 0;
+  for (auto _ : state) voxels = convert(scene, options).report.activeVoxels;
+  state.counters["voxels/s"] = benchmark::Counter(static_cast<double>(voxels),
+                                                  benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(wholeConversion)
+    ->Arg(256)
+    ->Arg(512)
+    ->Arg(1024)
+    ->ArgName("dim")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+}  // namespace
+
+BENCHMARK_MAIN();

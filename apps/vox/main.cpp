@@ -1,0 +1,120 @@
+// vox: from irregular polygon meshes to smooth voxel models.
+
+#include "apps/vox/command.h"
+#include "apps/vox/suggest.h"
+#include "libvox/core/error.h"
+#include "libvox/core/version.h"
+#include "libvox/io/atomic_file.h"
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <new>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace vox::app {
+namespace {
+
+constexpr int kUsage = 2;
+constexpr int kLimit = 4;
+constexpr int kIo = 5;
+constexpr int kInternal = 70;  // a bug of ours: EX_SOFTWARE
+constexpr int kInterrupted = 130;
+
+/// Leaves no partial file behind, then ends the process.
+extern "C" void onInterrupt(int) {
+  removePartialFile();
+  constexpr char kMessage[] = "\nvox: interrupted\n";
+  if (::write(STDERR_FILENO, kMessage, sizeof kMessage - 1) < 0) _exit(kInterrupted);
+  _exit(kInterrupted);
+}
+
+int fail(const std::string& message, int code) {
+  std::cerr << "vox: error: " << message << '\n';
+  return code;
+}
+
+std::vector<std::string> optionNames(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::vector<std::string> commandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+/// One line for words that were not understood, with the nearest that would be.
+std::string explainExtras(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  const CLI::App& command = chosen.empty() ? app : *chosen.front();
+  const std::vector<std::string> extras = app.remaining(/*recurse=*/true);
+  const std::string word = extras.empty() ? "" : extras.front();
+  const bool isOption = word.starts_with("-");
+  const std::string name = word.substr(0, word.find('='));
+  const std::string suggestion = nearest(name, isOption         ? optionNames(command)
+                                               : chosen.empty() ? commandNames(app)
+                                                                : std::vector<std::string>());
+  std::string message = isOption         ? "unknown option "
+                        : chosen.empty() ? "unknown command "
+                                         : "unexpected argument ";
+  message += name;
+  if (!suggestion.empty()) message += "; did you mean " + suggestion + "?";
+  return message + " (see " + (chosen.empty() ? "vox" : "vox " + command.get_name()) + " --help)";
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "Smooth voxel models in OpenVDB from irregular polygon meshes.\n"
+      "Doo-Sabin subdivision down to the voxel, after Cohen, Kaufman & Wang 1994.",
+      "vox");
+  app.set_version_flag("--version", std::string("vox ") + version());
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  app.footer(
+      "Exit codes: 0 success, 1 a comparison says no, 2 usage, 3 bad input,\n"
+      "4 cannot be done within limits, 5 output cannot be written, 130 interrupted.");
+  const std::vector<std::pair<const char*, Action>> actions = {
+      {"convert", addConvert(app)}, {"subdivide", addSubdivide(app)}, {"info", addInfo(app)}};
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    return app.exit(asked);  // --help, --version
+  } catch (const CLI::ExtrasError&) {
+    return fail(explainExtras(app), kUsage);
+  } catch (const CLI::ParseError& error) {
+    const auto extras = app.remaining(/*recurse=*/true);
+    if (app.get_subcommands().empty() && !extras.empty()) return fail(explainExtras(app), kUsage);
+    return fail(error.what(), kUsage);
+  }
+  for (const auto& [name, action] : actions)
+    if (app.got_subcommand(name)) return action();
+  return kUsage;
+}
+
+}  // namespace
+}  // namespace vox::app
+
+int main(int argc, char** argv) {
+  using namespace vox::app;
+  std::signal(SIGINT, onInterrupt);
+  std::signal(SIGTERM, onInterrupt);
+  std::signal(SIGHUP, onInterrupt);
+  try {
+    return run(argc, argv);
+  } catch (const vox::Error& error) {
+    return fail(error.what(), error.exitCode());
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory; use a smaller --dim or a larger --voxel-size", kLimit);
+  } catch (const std::ios_base::failure& error) {
+    return fail(error.what(), kIo);
+  } catch (const std::exception& error) {
+    return fail(std::string("internal error, please report it: ") + error.what(), kInternal);
+  }
+}

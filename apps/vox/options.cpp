@@ -1,0 +1,90 @@
+// Options that several subcommands share.
+
+#include "apps/vox/options.h"
+
+#include "libvox/core/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vox::app {
+namespace {
+
+/// "2GiB", "512M" or a number of bytes.
+std::uint64_t parseBytes(const std::string& text) {
+  std::size_t used = 0;
+  double value = -1;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  std::string unit = text.substr(used);
+  std::transform(unit.begin(), unit.end(), unit.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (unit.size() > 1 && unit.back() == 'b') unit.pop_back();
+  if (unit.size() > 1 && unit.back() == 'i') unit.pop_back();
+  constexpr std::string_view kUnits = "bkmgt";
+  const std::size_t power = unit.empty() ? 0 : kUnits.find(unit);
+  const bool known = unit.size() <= 1 && power != std::string_view::npos;
+  const double bytes = known ? value * std::pow(1024.0, static_cast<double>(power)) : -1;
+  if (used == 0 || !(bytes >= 1) || bytes > 1e18)
+    throw CLI::ValidationError("--max-memory", "must be a size such as 512M or 8G, not " + text);
+  return static_cast<std::uint64_t>(bytes);
+}
+
+}  // namespace
+
+void addRunOptions(CLI::App& command, RunOptions& run) {
+  constexpr int kMostThreads = 1024;
+  command.add_option("--threads", run.threads, "Threads to use (default: all processors)")
+      ->check(CLI::Range(1, kMostThreads))
+      ->type_name("N")
+      ->group("Run");
+  command
+      .add_option_function<std::string>(
+          "--max-memory", [&run](const std::string& text) { run.maxMemory = parseBytes(text); },
+          "Memory for meshes, such as 512M or 8G (default: three quarters of what is available)")
+      ->type_name("SIZE")
+      ->group("Run");
+  command.add_flag("-f,--force", run.force, "Overwrite an existing output file")->group("Run");
+  command.add_flag("-q,--quiet", run.quiet, "Print errors only")->group("Run");
+  command.add_flag("-v,--verbose", run.verbose, "Print what was done to each object, and times")
+      ->group("Run");
+}
+
+void addResolutionOptions(CLI::App& command, ResolutionOptions& resolution) {
+  auto* dim = command
+                  .add_option_function<int>(
+                      "--dim", [&resolution](int n) { resolution.dim = n; },
+                      "Voxels along the longest side of the input (default: the scene's, or 256)")
+                  ->check(CLI::Range(1, std::numeric_limits<int>::max()))
+                  ->type_name("N")
+                  ->group("Resolution");
+  command
+      .add_option_function<double>(
+          "--voxel-size", [&resolution](double size) { resolution.voxelSize = size; },
+          "Edge length of a voxel in world units, instead of --dim")
+      ->check(CLI::PositiveNumber)
+      ->excludes(dim)
+      ->type_name("S")
+      ->group("Resolution");
+}
+
+std::vector<GridKind> parseGrids(const std::vector<std::string>& names) {
+  std::vector<GridKind> grids;
+  for (const std::string& name : names) {
+    const auto kind = gridNamed(name);
+    if (!kind)
+      throw UsageError("--grids: unknown grid '" + name + "'; known are " + allGridNames());
+    if (std::find(grids.begin(), grids.end(), *kind) == grids.end()) grids.push_back(*kind);
+  }
+  return grids;
+}
+
+bool isStdout(const std::string& file) {
+  return file == "-";
+}
+
+}  // namespace vox::app

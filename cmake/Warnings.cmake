@@ -1,0 +1,14 @@
+# How our own code is compiled; kept out of the installed package (targets link it PRIVATE).
+add_library(vox_warnings INTERFACE)
+target_compile_options(vox_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast
+  -ffp-contract=off  # the same bits on processors with and without fused multiply-add
+)
+if(VOX_SANITIZE)
+  add_compile_options(-fsanitize=${VOX_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${VOX_SANITIZE})
+endif()
+if(VOX_COVERAGE)
+  add_compile_options(--coverage -fprofile-abs-path)
+  add_link_options(--coverage)
+endif()

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+
+namespace vox {
+
+using Vec3d = Eigen::Vector3d;
+
+/// Index of a point, face or corner. Meshes hold fewer than 2^32 - 1 of each.
+using Index = std::uint32_t;
+
+/// "No such element": the twin of a boundary corner.
+inline constexpr Index kNone = 0xffffffffU;
+
+}  // namespace vox

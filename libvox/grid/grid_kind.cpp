@@ -1,0 +1,36 @@
+// Names of the output grids.
+
+#include "libvox/grid/grid_kind.h"
+
+#include <array>
+
+namespace vox {
+namespace {
+
+constexpr std::array<GridKind, 2> kAll = {GridKind::kDensity, GridKind::kMask};
+
+}  // namespace
+
+std::string gridName(GridKind kind) {
+  switch (kind) {
+    case GridKind::kDensity:
+      return "density";
+    case GridKind::kMask:
+      return "mask";
+  }
+  return {};
+}
+
+std::optional<GridKind> gridNamed(std::string_view name) {
+  for (const GridKind kind : kAll)
+    if (gridName(kind) == name) return kind;
+  return std::nullopt;
+}
+
+std::string allGridNames() {
+  std::string names;
+  for (const GridKind kind : kAll) names += (names.empty() ? "" : ", ") + gridName(kind);
+  return names;
+}
+
+}  // namespace vox

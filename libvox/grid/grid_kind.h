@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vox {
+
+/// The grids a conversion can make (DESIGN section 9).
+enum class GridKind {
+  kDensity,  ///< Float fog volume, 1 at black voxels
+  kMask,     ///< the black voxels
+};
+
+/// Name in files, scenes and on the command line: "density".
+std::string gridName(GridKind kind);
+
+/// Grid of that name, or nothing.
+std::optional<GridKind> gridNamed(std::string_view name);
+
+/// "density, mask": for messages.
+std::string allGridNames();
+
+}  // namespace vox

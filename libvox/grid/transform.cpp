@@ -1,0 +1,53 @@
+// World space <-> index space, and how fine the grid is.
+
+#include "libvox/grid/transform.h"
+
+#include "libvox/core/error.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace vox {
+namespace {
+
+std::string str(double x) {
+  std::ostringstream out;
+  out.precision(6);
+  out << x;
+  return out.str();
+}
+
+}  // namespace
+
+Box usedBox(const PolygonMesh& mesh) {
+  Box box;
+  for (const Index v : mesh.faceVertices) box.add(mesh.points[v]);
+  return box;
+}
+
+GridTransform transformForDim(const Box& box, int dim) {
+  if (dim < 1) throw UsageError("--dim must be at least 1, not " + std::to_string(dim));
+  const double side = box.longestSide();
+  if (!(side > 0))
+    throw UsageError("the input has no extent, so --dim cannot set a voxel size; use --voxel-size");
+  return transformForVoxelSize(side / dim);
+}
+
+GridTransform transformForVoxelSize(double voxelSize) {
+  if (!(voxelSize > 0) || !std::isfinite(voxelSize))
+    throw UsageError("--voxel-size must be a positive number, not " + str(voxelSize));
+  return {voxelSize};
+}
+
+void requireInRange(const Box& boxWorld, const GridTransform& transform) {
+  if (boxWorld.empty()) return;
+  const double reach =
+      std::max(boxWorld.low.cwiseAbs().maxCoeff(), boxWorld.high.cwiseAbs().maxCoeff());
+  if (reach / transform.voxelSize < kMaxIndex) return;
+  throw LimitError("the input reaches " + str(reach) +
+                   " world units from the origin, more than 2^30" + " voxels of size " +
+                   str(transform.voxelSize) + "; use a voxel size of at least " +
+                   str(reach / kMaxIndex * 1.001) + " or move the input nearer to the origin");
+}
+
+}  // namespace vox

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "libvox/core/types.h"
+#include "libvox/mesh/polygon_mesh.h"
+
+#include <limits>
+
+namespace vox {
+
+/// Axis-aligned box in world units.
+struct Box {
+  Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
+  Vec3d high = Vec3d::Constant(-std::numeric_limits<double>::infinity());
+
+  bool empty() const { return !(low.array() <= high.array()).all(); }
+  double longestSide() const { return empty() ? 0 : (high - low).maxCoeff(); }
+  void add(const Vec3d& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+};
+
+/// Box of the points that faces use.
+Box usedBox(const PolygonMesh& mesh);
+
+/// Uniform grid: world = voxelSize x index. Voxel (i, j, k) is the unit cube centred on (i, j, k),
+/// so grids of the same voxel size line up whatever they hold.
+struct GridTransform {
+  double voxelSize = 1;  ///< world units, > 0
+
+  Vec3d toIndex(const Vec3d& world) const { return world / voxelSize; }
+  Vec3d toWorld(const Vec3d& index) const { return index * voxelSize; }
+};
+
+/// Largest absolute index coordinate that may be converted: half of OpenVDB's 32-bit range, so that
+/// neighbours and filters never overflow, and a double still resolves 1e-7 voxels.
+inline constexpr double kMaxIndex = 1 << 30;
+
+/// Transform with `dim` voxels along the longest side of the box.
+/// @throws UsageError  dim < 1, or the box has no extent (all points equal)
+GridTransform transformForDim(const Box& box, int dim);
+
+/// @throws UsageError  voxelSize is not a positive finite number
+GridTransform transformForVoxelSize(double voxelSize);
+
+/// @throws LimitError  the box reaches beyond kMaxIndex; the message names the smallest voxel size
+///   that works
+void requireInRange(const Box& boxWorld, const GridTransform& transform);
+
+}  // namespace vox

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+namespace vox {
+
+/// Checks before the work starts that a file may be written: its folder exists and is writable, the
+/// target is not a folder or device, and does not exist unless `overwrite`.
+/// @throws IoError  says which of these fails
+void requireWritable(const std::filesystem::path& target, bool overwrite);
+
+/// A file that appears under its name only when complete. Bytes go to "NAME.PID.part" in the folder
+/// of the target (of what it points to, for a symbolic link); commit() syncs and renames. Without
+/// commit() the destructor removes the partial file and the target is as it was.
+class AtomicFile {
+ public:
+  /// @throws IoError  see requireWritable; or the partial file cannot be made
+  AtomicFile(const std::filesystem::path& target, bool overwrite);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Readable, writable, seekable, binary.
+  std::fstream& stream() { return stream_; }
+
+  /// @throws IoError  a write, the sync or the rename failed: full disk, for one
+  void commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path partial_;
+  std::fstream stream_;
+};
+
+/// Removes the partial file of this process, if there is one. Safe to call from a signal handler.
+void removePartialFile() noexcept;
+
+}  // namespace vox

@@ -1,0 +1,212 @@
+#include "libvox/io/ply_header.h"
+
+#include "libvox/core/types.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace vox {
+
+namespace {
+
+struct TypeName {
+  std::string_view name;
+  PlyType type;
+};
+
+constexpr std::array<TypeName, 16> kTypeNames = {{
+    {"char", PlyType::kInt8},
+    {"int8", PlyType::kInt8},
+    {"uchar", PlyType::kUint8},
+    {"uint8", PlyType::kUint8},
+    {"short", PlyType::kInt16},
+    {"int16", PlyType::kInt16},
+    {"ushort", PlyType::kUint16},
+    {"uint16", PlyType::kUint16},
+    {"int", PlyType::kInt32},
+    {"int32", PlyType::kInt32},
+    {"uint", PlyType::kUint32},
+    {"uint32", PlyType::kUint32},
+    {"float", PlyType::kFloat32},
+    {"float32", PlyType::kFloat32},
+    {"double", PlyType::kFloat64},
+    {"float64", PlyType::kFloat64},
+}};
+
+class HeaderParser {
+ public:
+  explicit HeaderParser(TextScanner& scan) : scan_(scan) {}
+
+  PlyHeader parse() {
+    if (scan_.token() != "ply") scan_.fail("no PLY file: the first line must be \"ply\"");
+    endLine();
+    while (readLine()) {
+    }
+    checkIsMesh();
+    scan_.nextLine();
+    return std::move(header_);
+  }
+
+ private:
+  bool readLine();
+  void readFormat();
+  void readElement();
+  void readProperty();
+  PlyRole roleOf(const PlyProperty& property) const;
+  PlyType typeNamed(std::string_view name) const;
+  std::string_view word(const char* what);
+  void endLine();
+  void checkIsMesh() const;
+
+  TextScanner& scan_;
+  PlyHeader header_;
+  bool hasFormat_ = false;
+  bool hasVertices_ = false;
+};
+
+// One line; false if it ends the header.
+bool HeaderParser::readLine() {
+  const std::string_view keyword = scan_.token();
+  if (keyword == "end_header") return false;
+  if (keyword == "format") {
+    readFormat();
+  } else if (keyword == "element") {
+    readElement();
+  } else if (keyword == "property") {
+    readProperty();
+  } else if (keyword == "comment" || keyword == "obj_info") {
+    if (!scan_.nextLine()) scan_.fail("truncated: ends before end_header");
+    return true;
+  } else if (!keyword.empty()) {
+    scan_.fail("unknown header line " + quote(keyword));
+  }
+  endLine();
+  return true;
+}
+
+void HeaderParser::readFormat() {
+  const std::string_view format = word("a format");
+  if (format == "binary_little_endian") {
+    header_.binaryOrder = std::endian::little;
+  } else if (format == "binary_big_endian") {
+    header_.binaryOrder = std::endian::big;
+  } else if (format != "ascii") {
+    scan_.fail("unknown format " + quote(format) +
+               "; expected ascii, binary_little_endian or binary_big_endian");
+  }
+  if (const auto version = word("a version"); version != "1.0")
+    scan_.fail("unknown format version " + quote(version) + "; expected 1.0");
+  if (std::exchange(hasFormat_, true)) scan_.fail("second format line");
+}
+
+void HeaderParser::readElement() {
+  PlyElement element;
+  const std::string_view name = word("an element name");
+  const std::string shown = quote(name);
+  element.name = shown.substr(1, shown.size() - 2);
+  element.isVertex = name == "vertex";
+
+  const std::int64_t count = scan_.integer(word("an element count"));
+  if (count < 0 || count >= std::int64_t{kNone})
+    scan_.fail("element " + element.name + " has count " + std::to_string(count) +
+               "; it must be 0 to 2^32 - 2");
+  element.count = static_cast<std::uint64_t>(count);
+  if (element.isVertex && std::exchange(hasVertices_, true)) scan_.fail("second element vertex");
+  if (element.isVertex) header_.vertexCount = element.count;
+  header_.elements.push_back(std::move(element));
+}
+
+void HeaderParser::readProperty() {
+  if (header_.elements.empty()) scan_.fail("property before the first element");
+  PlyProperty property;
+  if (const std::string_view type = word("a property type"); type == "list") {
+    property.isList = true;
+    property.countType = typeNamed(word("a type"));
+    property.type = typeNamed(word("a type"));
+  } else {
+    property.type = typeNamed(type);
+  }
+  property.name = word("a property name");
+  property.role = roleOf(property);
+
+  auto& properties = header_.elements.back().properties;
+  for (const PlyProperty& other : properties)
+    if (property.role != PlyRole::kIgnored && other.role == property.role)
+      scan_.fail("second property " + quote(property.name));
+  properties.push_back(std::move(property));
+}
+
+PlyRole HeaderParser::roleOf(const PlyProperty& property) const {
+  const PlyElement& element = header_.elements.back();
+  const std::string& name = property.name;
+  if (property.isList) {
+    if (name != "vertex_indices" && name != "vertex_index") return PlyRole::kIgnored;
+    if (element.name == "face") return PlyRole::kFace;
+    return element.name == "tristrips" ? PlyRole::kStrips : PlyRole::kIgnored;
+  }
+  if (!element.isVertex || name.size() != 1 || name < "x" || name > "z") return PlyRole::kIgnored;
+  return name == "x" ? PlyRole::kX : name == "y" ? PlyRole::kY : PlyRole::kZ;
+}
+
+PlyType HeaderParser::typeNamed(std::string_view name) const {
+  const auto known = std::find_if(kTypeNames.begin(), kTypeNames.end(),
+                                  [&](const TypeName& type) { return type.name == name; });
+  if (known == kTypeNames.end())
+    scan_.fail("unknown type " + quote(name) + "; expected char, uchar, ..., float or double");
+  return known->type;
+}
+
+std::string_view HeaderParser::word(const char* what) {
+  const std::string_view token = scan_.token();
+  if (token.empty()) scan_.fail(std::string("the line ends where ") + what + " is expected");
+  return token;
+}
+
+void HeaderParser::endLine() {
+  if (const auto extra = scan_.token(); !extra.empty())
+    scan_.fail("unexpected " + quote(extra) + " at the end of a header line");
+  if (!scan_.nextLine()) scan_.fail("truncated: ends before end_header");
+}
+
+void HeaderParser::checkIsMesh() const {
+  if (!hasFormat_) scan_.fail("the header has no format line");
+  int axes = 0;
+  bool hasFaces = false;
+  for (const PlyElement& element : header_.elements)
+    for (const PlyProperty& property : element.properties) {
+      const bool isFaces = property.role == PlyRole::kFace || property.role == PlyRole::kStrips;
+      hasFaces |= isFaces;
+      axes += property.role != PlyRole::kIgnored && !isFaces;
+    }
+  if (axes != 3) scan_.fail("the header has no element vertex with properties x, y and z");
+  if (!hasFaces)
+    scan_.fail("no faces: the header has no element face with a list property vertex_indices");
+}
+
+}  // namespace
+
+std::size_t sizeOf(PlyType type) {
+  switch (type) {
+    case PlyType::kInt8:
+    case PlyType::kUint8:
+      return 1;
+    case PlyType::kInt16:
+    case PlyType::kUint16:
+      return 2;
+    case PlyType::kInt32:
+    case PlyType::kUint32:
+    case PlyType::kFloat32:
+      return 4;
+    case PlyType::kFloat64:
+      return 8;
+  }
+  return 1;
+}
+
+PlyHeader parsePlyHeader(TextScanner& scan) {
+  return HeaderParser(scan).parse();
+}
+
+}  // namespace vox

@@ -1,0 +1,138 @@
+// Object File Format, text.
+//
+// Source: Geomview manual, "OFF Files". Beyond it, the counts may share the keyword's line and the
+// edge count may be missing.
+
+#include "libvox/core/error.h"
+#include "libvox/io/mesh_formats.h"
+#include "libvox/io/text_scanner.h"
+
+#include <utility>
+
+namespace vox {
+
+namespace {
+
+class OffParser {
+ public:
+  OffParser(std::string_view text, const std::string& fileName)
+      : scan_(text, fileName, {.hashComments = true}) {}
+
+  PolygonMesh parse() {
+    readHeader();
+    for (std::int64_t v = 0; v < pointCount_; ++v) readPoint(v);
+    for (std::int64_t f = 0; f < faceCount_; ++f) readFace(f);
+    if (const auto token = scan_.tokenOnAnyLine(); !token.empty())
+      scan_.fail("unexpected " + quote(token) + " after the last of " + std::to_string(faceCount_) +
+                 " faces; correct the counts");
+    return std::move(mesh_);
+  }
+
+ private:
+  void readHeader();
+  bool readKeyword(std::string_view token);
+  std::int64_t readCount(std::string_view token, const char* what) const;
+  std::string_view tokenInside(const char* element, std::int64_t index, std::int64_t count);
+  [[noreturn]] void failTruncated(const char* element, std::int64_t index,
+                                  std::int64_t count) const;
+  void readPoint(std::int64_t v);
+  void readFace(std::int64_t f);
+
+  TextScanner scan_;
+  PolygonMesh mesh_;
+  std::int64_t pointCount_ = 0;
+  std::int64_t faceCount_ = 0;
+  int attributeCount_ = 0;  // numbers that must follow the position of each vertex
+};
+
+void OffParser::readHeader() {
+  std::string_view token = scan_.tokenOnAnyLine();
+  if (readKeyword(token)) token = scan_.tokenOnAnyLine();
+  if (token == "BINARY") scan_.fail("binary OFF is not supported; save the file as text");
+  pointCount_ = readCount(token, "the number of vertices");
+  faceCount_ = readCount(scan_.tokenOnAnyLine(), "the number of faces");
+  if (const auto edges = scan_.token(); !edges.empty()) scan_.integer(edges);
+  if (const auto extra = scan_.token(); !extra.empty())
+    scan_.fail("unexpected " + quote(extra) + " after the counts");
+}
+
+// [ST][C][N][4][n]OFF; the first three in any order. False if the token is no keyword at all.
+bool OffParser::readKeyword(std::string_view token) {
+  if (!token.ends_with("OFF")) return false;
+  std::string_view flags = token.substr(0, token.size() - 3);
+  while (!flags.empty()) {
+    const bool texture = flags.starts_with("ST");
+    if (flags[0] == '4' || flags[0] == 'n')
+      scan_.fail(quote(token) + ": vertices that are not 3-dimensional are not supported");
+    if (!texture && flags[0] != 'C' && flags[0] != 'N')
+      scan_.fail("unknown keyword " + quote(token) + "; expected OFF, COFF, NOFF or STOFF");
+    attributeCount_ += texture ? 2 : 3;
+    flags.remove_prefix(texture ? 2 : 1);
+  }
+  return true;
+}
+
+std::int64_t OffParser::readCount(std::string_view token, const char* what) const {
+  if (token.empty()) scan_.fail(std::string("truncated: ends before ") + what);
+  const std::int64_t count = scan_.integer(token);
+  if (count < 0 || count >= std::int64_t{kNone})
+    scan_.fail(std::string(what) + " is " + quote(token) + "; it must be 0 to 2^32 - 2");
+  return count;
+}
+
+// The first token of an element, which must be there.
+std::string_view OffParser::tokenInside(const char* element, std::int64_t index,
+                                        std::int64_t count) {
+  const std::string_view token = scan_.tokenOnAnyLine();
+  if (token.empty()) failTruncated(element, index, count);
+  return token;
+}
+
+void OffParser::failTruncated(const char* element, std::int64_t index, std::int64_t count) const {
+  scan_.fail(std::string("truncated: ends within ") + element + " " + std::to_string(index) +
+             " of " + std::to_string(count));
+}
+
+void OffParser::readPoint(std::int64_t v) {
+  Vec3d point;
+  for (int axis = 0; axis < 3; ++axis)
+    point[axis] = scan_.coordinate(tokenInside("vertex", v, pointCount_));
+  mesh_.points.push_back(point);
+
+  int extra = 0;
+  for (auto token = scan_.token(); !token.empty(); token = scan_.token(), ++extra)
+    scan_.number(token);
+  if (extra < attributeCount_)
+    scan_.fail("vertex " + std::to_string(v) + " has " + std::to_string(3 + extra) +
+               " numbers; the keyword promises " + std::to_string(3 + attributeCount_));
+}
+
+void OffParser::readFace(std::int64_t f) {
+  const auto name = [&] { return "face " + std::to_string(f); };
+  const std::int64_t corners = scan_.integer(tokenInside("face", f, faceCount_));
+  if (corners < 3)
+    scan_.fail(name() + " has " + std::to_string(corners) + " corners; it needs at least 3");
+
+  for (std::int64_t i = 0; i < corners; ++i) {
+    const std::string_view token = scan_.token();
+    if (token.empty() && scan_.rest().empty()) failTruncated("face", f, faceCount_);
+    if (token.empty())
+      scan_.fail(name() + " has " + std::to_string(i) + " of " + std::to_string(corners) +
+                 " indices on its line");
+    const std::int64_t index = scan_.integer(token);
+    if (index < 0 || index >= pointCount_)
+      scan_.fail(name() + " refers to vertex " + std::to_string(index) + " of " +
+                 std::to_string(pointCount_) + " (numbered from 0)");
+    mesh_.faceVertices.push_back(static_cast<Index>(index));
+  }
+  mesh_.faceOffsets.push_back(mesh_.cornerCount());
+  scan_.nextLine();  // a colour may follow
+}
+
+}  // namespace
+
+PolygonMesh parseOff(std::string_view text, const std::string& fileName) {
+  return OffParser(text, fileName).parse();
+}
+
+}  // namespace vox

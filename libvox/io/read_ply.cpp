@@ -1,0 +1,233 @@
+// Polygon File Format (Stanford), text and binary.
+//
+// Source: G. Turk, "The PLY Polygon File Format", 1994; tristrips as in the Stanford scanning
+// repository: one list of vertices, -1 starts a new strip.
+
+#include "libvox/core/error.h"
+#include "libvox/io/byte_order.h"
+#include "libvox/io/mesh_formats.h"
+#include "libvox/io/ply_header.h"
+#include "libvox/io/read_mesh.h"
+#include "libvox/io/text_scanner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace vox {
+
+namespace {
+
+// What is being read, for messages.
+struct Place {
+  const PlyElement* element = nullptr;
+  std::uint64_t index = 0;
+
+  std::string name() const { return element->name + " " + std::to_string(index); }
+  std::string truncated() const {
+    return "truncated: ends within " + name() + " of " + std::to_string(element->count);
+  }
+};
+
+// Numbers of a text body. An element may run over several lines, but starts on a new one: a missing
+// or additional number does not shift all that follow.
+class TextNumbers {
+ public:
+  TextNumbers(TextScanner& scan, const Place& place) : scan_(scan), place_(place) {}
+
+  double next(PlyType) { return scan_.number(nextToken()); }
+  void skip(PlyType, std::uint64_t count) {
+    for (; count > 0; --count) nextToken();
+  }
+  void endElement() {
+    if (const auto extra = scan_.token(); !extra.empty())
+      fail("unexpected " + quote(extra) + " after the last value of " + place_.name());
+    scan_.nextLine();
+  }
+  [[noreturn]] void fail(const std::string& what) const { scan_.fail(what); }
+
+ private:
+  std::string_view nextToken() {
+    const std::string_view token = scan_.tokenOnAnyLine();
+    if (token.empty()) fail(place_.truncated());
+    return token;
+  }
+
+  TextScanner& scan_;
+  const Place& place_;
+};
+
+// Numbers of a binary body.
+class BinaryNumbers {
+ public:
+  BinaryNumbers(std::string_view data, std::endian order, const std::string& fileName,
+                const Place& place)
+      : data_(data), order_(order), fileName_(fileName), place_(place) {}
+
+  double next(PlyType type) {
+    const char* const at = data_.data();
+    skip(type, 1);
+    switch (type) {
+      case PlyType::kInt8:
+        return loadNumber<std::int8_t>(at, order_);
+      case PlyType::kUint8:
+        return loadNumber<std::uint8_t>(at, order_);
+      case PlyType::kInt16:
+        return loadNumber<std::int16_t>(at, order_);
+      case PlyType::kUint16:
+        return loadNumber<std::uint16_t>(at, order_);
+      case PlyType::kInt32:
+        return loadNumber<std::int32_t>(at, order_);
+      case PlyType::kUint32:
+        return loadNumber<std::uint32_t>(at, order_);
+      case PlyType::kFloat32:
+        return static_cast<double>(loadNumber<float>(at, order_));
+      case PlyType::kFloat64:
+        return loadNumber<double>(at, order_);
+    }
+    return 0;
+  }
+  void skip(PlyType type, std::uint64_t count) {
+    const std::size_t size = sizeOf(type);
+    if (count > data_.size() / size) fail(place_.truncated());
+    data_.remove_prefix(size * count);
+  }
+  void endElement() {}
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fileName_ + ": " + what);
+  }
+
+ private:
+  std::string_view data_;
+  std::endian order_;
+  const std::string& fileName_;
+  const Place& place_;
+};
+
+// Reads the elements that the header announces from a source of numbers.
+template <typename Numbers>
+class BodyParser {
+ public:
+  BodyParser(Numbers numbers, const PlyHeader& header, Place& place)
+      : numbers_(numbers), header_(header), place_(place) {}
+
+  PolygonMesh parse() {
+    for (const PlyElement& element : header_.elements) {
+      if (element.properties.empty()) continue;  // no bytes, however many there are
+      place_ = {&element, 0};
+      for (; place_.index < element.count; ++place_.index) {
+        readElement(element);
+        numbers_.endElement();
+      }
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  void readElement(const PlyElement& element);
+  std::uint64_t readCount(PlyType type);
+  std::int64_t readInteger(PlyType type);
+  Index pointOf(std::int64_t index);
+  void readFace(const PlyProperty& list);
+  void readStrips(const PlyProperty& list);
+
+  Numbers numbers_;
+  const PlyHeader& header_;
+  Place& place_;
+  PolygonMesh mesh_;
+};
+
+template <typename Numbers>
+void BodyParser<Numbers>::readElement(const PlyElement& element) {
+  Vec3d point = Vec3d::Zero();
+  for (const PlyProperty& property : element.properties) {
+    switch (property.role) {
+      case PlyRole::kIgnored:
+        numbers_.skip(property.type, property.isList ? readCount(property.countType) : 1);
+        break;
+      case PlyRole::kFace:
+        readFace(property);
+        break;
+      case PlyRole::kStrips:
+        readStrips(property);
+        break;
+      case PlyRole::kX:
+      case PlyRole::kY:
+      case PlyRole::kZ: {
+        const double value = numbers_.next(property.type);
+        if (!(std::abs(value) <= kMaxCoordinate))
+          numbers_.fail(place_.name() + ": coordinate " + property.name + " is " +
+                        (std::isfinite(value) ? "larger than 1e15; scale the model down"
+                                              : "not a finite number"));
+        point[static_cast<int>(property.role) - static_cast<int>(PlyRole::kX)] = value;
+      }
+    }
+  }
+  if (element.isVertex) mesh_.points.push_back(point);
+}
+
+template <typename Numbers>
+std::int64_t BodyParser<Numbers>::readInteger(PlyType type) {
+  const double value = numbers_.next(type);
+  if (!(std::abs(value) < 0x1p53) || value != std::floor(value))
+    numbers_.fail(place_.name() + ": a count or index is not a whole number");
+  return static_cast<std::int64_t>(value);
+}
+
+template <typename Numbers>
+std::uint64_t BodyParser<Numbers>::readCount(PlyType type) {
+  const std::int64_t count = readInteger(type);
+  if (count < 0) numbers_.fail(place_.name() + ": a list has " + std::to_string(count) + " items");
+  return static_cast<std::uint64_t>(count);
+}
+
+template <typename Numbers>
+Index BodyParser<Numbers>::pointOf(std::int64_t index) {
+  if (index < 0 || index >= static_cast<std::int64_t>(header_.vertexCount))
+    numbers_.fail(place_.name() + " refers to vertex " + std::to_string(index) + " of " +
+                  std::to_string(header_.vertexCount) + " (numbered from 0)");
+  return static_cast<Index>(index);
+}
+
+template <typename Numbers>
+void BodyParser<Numbers>::readFace(const PlyProperty& list) {
+  const std::uint64_t corners = readCount(list.countType);
+  if (corners < 3)
+    numbers_.fail(place_.name() + " has " + std::to_string(corners) +
+                  " corners; it needs at least 3");
+  for (std::uint64_t i = 0; i < corners; ++i)
+    mesh_.faceVertices.push_back(pointOf(readInteger(list.type)));
+  mesh_.faceOffsets.push_back(mesh_.cornerCount());
+}
+
+// Triangle i of a strip has corners i, i + 1, i + 2, every other one turned around. Triangles with
+// a repeated corner only stitch the strip together; they are no faces.
+template <typename Numbers>
+void BodyParser<Numbers>::readStrips(const PlyProperty& list) {
+  Index a = 0, b = 0;
+  std::uint64_t inStrip = 0;
+  for (std::uint64_t rest = readCount(list.countType); rest > 0; --rest) {
+    const std::int64_t index = readInteger(list.type);
+    if (index == -1) {
+      inStrip = 0;
+      continue;
+    }
+    const Index c = pointOf(index);
+    if (++inStrip >= 3 && a != b && b != c && c != a)
+      mesh_.addFace(inStrip % 2 == 1 ? std::array{a, b, c} : std::array{b, a, c});
+    a = std::exchange(b, c);
+  }
+}
+
+}  // namespace
+
+PolygonMesh parsePly(std::string_view data, const std::string& fileName) {
+  TextScanner scan(data, fileName, {});
+  const PlyHeader header = parsePlyHeader(scan);
+  Place place;
+  if (!header.binaryOrder) return BodyParser(TextNumbers(scan, place), header, place).parse();
+  return BodyParser(BinaryNumbers(scan.rest(), *header.binaryOrder, fileName, place), header, place)
+      .parse();
+}
+
+}  // namespace vox

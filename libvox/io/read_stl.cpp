@@ -1,0 +1,209 @@
+// STL, text and binary. Both store bare triangles; equal positions become one point.
+//
+// Source: 3D Systems, "StereoLithography Interface Specification", 1989.
+
+#include "libvox/core/error.h"
+#include "libvox/io/byte_order.h"
+#include "libvox/io/mesh_formats.h"
+#include "libvox/io/text_scanner.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace vox {
+
+namespace {
+
+constexpr std::size_t kHeaderBytes = 84;  // 80 of comment, 4 of triangle count
+constexpr std::size_t kFacetBytes = 50;   // normal, 3 positions, 2 of attribute
+
+// Finds the point of a position, adding it if it is new: an open-addressing hash table of point
+// indices, at most half full. -0 equals +0.
+class PointWelder {
+ public:
+  explicit PointWelder(std::vector<Vec3d>& points) : points_(points), slots_(64, kNone) {}
+
+  Index indexOf(const Vec3d& position) {
+    std::size_t slot = slotOf(position);
+    if (slots_[slot] != kNone) return slots_[slot];
+    if (2 * (points_.size() + 1) > slots_.size()) {
+      grow();
+      slot = slotOf(position);
+    }
+    slots_[slot] = static_cast<Index>(points_.size());
+    points_.push_back(position);
+    return slots_[slot];
+  }
+
+ private:
+  static std::size_t hash(const Vec3d& position) {
+    std::uint64_t h = 0;
+    for (const double x : position) {
+      h ^= std::bit_cast<std::uint64_t>(x + 0.0);  // + 0.0 turns -0 into +0
+      h *= 0x9e3779b97f4a7c15U;
+      h ^= h >> 29;
+    }
+    h *= 0xbf58476d1ce4e5b9U;
+    return h ^ (h >> 32);
+  }
+
+  // The slot that holds this position, or the free one where it belongs.
+  std::size_t slotOf(const Vec3d& position) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = hash(position) & mask;
+    while (slots_[slot] != kNone && points_[slots_[slot]] != position) slot = (slot + 1) & mask;
+    return slot;
+  }
+
+  void grow() {
+    slots_.assign(2 * slots_.size(), kNone);
+    for (std::size_t v = 0; v < points_.size(); ++v)
+      slots_[slotOf(points_[v])] = static_cast<Index>(v);
+  }
+
+  std::vector<Vec3d>& points_;
+  std::vector<Index> slots_;
+};
+
+std::uint64_t binaryTriangleCount(std::string_view data) {
+  return loadNumber<std::uint32_t>(data.data() + kHeaderBytes - 4, std::endian::little);
+}
+
+// Whether the size is exactly what a binary header promises. Many binary files start with "solid".
+bool isBinary(std::string_view data) {
+  return data.size() >= kHeaderBytes &&
+         data.size() == kHeaderBytes + kFacetBytes * binaryTriangleCount(data);
+}
+
+PolygonMesh parseBinary(std::string_view data, const std::string& fileName) {
+  PolygonMesh mesh;
+  PointWelder welder(mesh.points);
+  const std::uint64_t count = binaryTriangleCount(data);
+  for (std::uint64_t f = 0; f < count; ++f) {
+    const char* at = data.data() + kHeaderBytes + kFacetBytes * f + 12;  // skips the normal
+    for (int corner = 0; corner < 3; ++corner) {
+      Vec3d position;
+      for (int axis = 0; axis < 3; ++axis, at += 4)
+        position[axis] = static_cast<double>(loadNumber<float>(at, std::endian::little));
+      if (!position.allFinite())  // nan differs from itself: it cannot be welded
+        throw InputError(fileName + ": triangle " + std::to_string(f) +
+                         " has a coordinate that is not a finite number");
+      mesh.faceVertices.push_back(welder.indexOf(position));
+    }
+    mesh.faceOffsets.push_back(mesh.cornerCount());
+  }
+  return mesh;
+}
+
+bool sameWord(std::string_view token, std::string_view lowerCase) {
+  const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+  return std::equal(token.begin(), token.end(), lowerCase.begin(), lowerCase.end(), same);
+}
+
+class TextParser {
+ public:
+  TextParser(std::string_view text, const std::string& fileName) : scan_(text, fileName, {}) {}
+
+  bool startsWithSolid() { return sameWord(scan_.tokenOnAnyLine(), "solid"); }
+
+  // Expects the first "solid" to be read.
+  PolygonMesh parse() {
+    readSolid();
+    for (auto token = scan_.tokenOnAnyLine(); !token.empty(); token = scan_.tokenOnAnyLine()) {
+      if (!sameWord(token, "solid")) failExpected("solid", token);
+      readSolid();
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  void readSolid();
+  void readFacet();
+  void readVertex();
+  std::string_view next(std::string_view expected);
+  void expect(std::string_view keyword);
+  [[noreturn]] void failExpected(std::string_view keyword, std::string_view token) const;
+
+  TextScanner scan_;
+  PolygonMesh mesh_;
+  PointWelder welder_{mesh_.points};
+};
+
+void TextParser::readSolid() {
+  scan_.nextLine();  // the name may be anything
+  for (;;) {
+    const std::string_view token = next("facet or endsolid");
+    if (sameWord(token, "endsolid")) break;
+    if (!sameWord(token, "facet")) failExpected("facet or endsolid", token);
+    readFacet();
+  }
+  scan_.nextLine();
+}
+
+// normal nx ny nz outer loop vertex x y z ... endloop endfacet. Normals are often nan: not used.
+void TextParser::readFacet() {
+  const std::size_t line = scan_.line();
+  const std::size_t first = mesh_.faceVertices.size();
+  expect("normal");
+  for (int axis = 0; axis < 3; ++axis) next("a normal");
+  expect("outer");
+  expect("loop");
+  for (auto token = next("vertex"); !sameWord(token, "endloop");
+       token = next("vertex or endloop")) {
+    if (!sameWord(token, "vertex")) failExpected("vertex or endloop", token);
+    readVertex();
+  }
+  expect("endfacet");
+
+  const std::size_t corners = mesh_.faceVertices.size() - first;
+  if (corners < 3)
+    scan_.failAt(line, "facet with " + std::to_string(corners) + " corners; it needs at least 3");
+  mesh_.faceOffsets.push_back(mesh_.cornerCount());
+}
+
+void TextParser::readVertex() {
+  Vec3d position;
+  for (int axis = 0; axis < 3; ++axis) position[axis] = scan_.coordinate(next("a coordinate"));
+  mesh_.faceVertices.push_back(welder_.indexOf(position));
+}
+
+// The next token, which must be there.
+std::string_view TextParser::next(std::string_view expected) {
+  const std::string_view token = scan_.tokenOnAnyLine();
+  if (token.empty())
+    scan_.fail("truncated: ends where " + std::string(expected) + " is expected, after " +
+               std::to_string(mesh_.faceCount()) + " facets");
+  return token;
+}
+
+void TextParser::expect(std::string_view keyword) {
+  const std::string_view token = next(keyword);
+  if (!sameWord(token, keyword)) failExpected(keyword, token);
+}
+
+void TextParser::failExpected(std::string_view keyword, std::string_view token) const {
+  scan_.fail("expected " + std::string(keyword) + ", found " + quote(token));
+}
+
+[[noreturn]] void failNeither(std::string_view data, const std::string& fileName) {
+  if (data.size() < kHeaderBytes)
+    throw InputError(fileName + ": no STL file: neither \"solid\" nor a header of 84 bytes");
+  const std::uint64_t count = binaryTriangleCount(data);
+  throw InputError(fileName + ": no STL file, or damaged: " + std::to_string(count) +
+                   " triangles in the header take " +
+                   std::to_string(kHeaderBytes + kFacetBytes * count) + " bytes, the file has " +
+                   std::to_string(data.size()));
+}
+
+}  // namespace
+
+PolygonMesh parseStl(std::string_view data, const std::string& fileName) {
+  if (isBinary(data)) return parseBinary(data, fileName);
+  TextParser text(data, fileName);
+  const bool isText = data.find('\0') == std::string_view::npos;  // else a damaged binary file
+  if (!isText || !text.startsWithSolid()) failNeither(data, fileName);
+  return text.parse();
+}
+
+}  // namespace vox

@@ -1,0 +1,262 @@
+// Scene files: the paper's display file (section 9) in TOML.
+
+#include "libvox/io/scene_file.h"
+
+#include "libvox/core/error.h"
+#include "libvox/io/read_mesh.h"
+#include "libvox/mesh/validate.h"
+
+#include <Eigen/Geometry>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <string_view>
+
+namespace vox {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A TOML document that knows its file name, for messages.
+struct SceneText {
+  fs::path file;
+  toml::table root;
+
+  [[noreturn]] void fail(const toml::source_region& at, const std::string& what) const {
+    throw InputError(file.string() + ":" + std::to_string(at.begin.line) + ":" +
+                     std::to_string(at.begin.column) + ": " + what);
+  }
+  [[noreturn]] void fail(const toml::node& at, const std::string& what) const {
+    fail(at.source(), what);
+  }
+};
+
+std::string inQuotes(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  std::string out = "'";
+  for (const char c : text.substr(0, kMost))
+    out += std::iscntrl(static_cast<unsigned char>(c)) ? '?' : c;
+  return out + (text.size() > kMost ? "...'" : "'");
+}
+
+void requireKnownKeys(const SceneText& scene, const toml::table& table, const std::string& where,
+                      std::initializer_list<std::string_view> known) {
+  for (const auto& [key, value] : table) {
+    if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+    std::string names;
+    for (const auto name : known) names += (names.empty() ? "" : ", ") + std::string(name);
+    scene.fail(key.source(),
+               "unknown key " + inQuotes(key.str()) + " in " + where + "; known are " + names);
+  }
+}
+
+const toml::table& requireTable(const SceneText& scene, const toml::node& node,
+                                const std::string& name) {
+  if (const auto* table = node.as_table()) return *table;
+  scene.fail(node, name + " must be a table");
+}
+
+const toml::array& requireArray(const SceneText& scene, const toml::node& node,
+                                const std::string& name) {
+  if (const auto* array = node.as_array()) return *array;
+  scene.fail(node, name + " must be an array");
+}
+
+std::string requireString(const SceneText& scene, const toml::node& node, const std::string& name) {
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  scene.fail(node, name + " must be a string");
+}
+
+double requireNumber(const SceneText& scene, const toml::node& node, const std::string& name) {
+  if (node.is_number()) {
+    const double number = *node.value<double>();
+    if (!std::isfinite(number) || std::abs(number) > kMaxCoordinate)
+      scene.fail(node, name + " must be finite and at most 1e15 in size");
+    return number;
+  }
+  scene.fail(node, name + " must be a number");
+}
+
+std::int64_t requireInteger(const SceneText& scene, const toml::node& node, const std::string& name,
+                            std::int64_t low, std::int64_t high) {
+  const auto number = node.value_exact<std::int64_t>();
+  if (!number) scene.fail(node, name + " must be an integer");
+  if (*number < low || *number > high)
+    scene.fail(node, name + " must lie between " + std::to_string(low) + " and " +
+                         std::to_string(high) + ", not " + std::to_string(*number));
+  return *number;
+}
+
+Vec3d requireVector(const SceneText& scene, const toml::node& node, const std::string& name) {
+  const toml::array& array = requireArray(scene, node, name);
+  if (array.size() != 3) scene.fail(node, name + " must have 3 numbers");
+  return {requireNumber(scene, array[0], name), requireNumber(scene, array[1], name),
+          requireNumber(scene, array[2], name)};
+}
+
+// [convert]
+
+std::vector<GridKind> readGrids(const SceneText& scene, const toml::node& node) {
+  std::vector<GridKind> grids;
+  for (const toml::node& item : requireArray(scene, node, "grids")) {
+    const std::string name = requireString(scene, item, "a grid");
+    const auto kind = gridNamed(name);
+    if (!kind) scene.fail(item, "unknown grid " + inQuotes(name) + "; known are " + allGridNames());
+    if (std::find(grids.begin(), grids.end(), *kind) == grids.end()) grids.push_back(*kind);
+  }
+  if (grids.empty()) scene.fail(node, "grids must name at least one of " + allGridNames());
+  return grids;
+}
+
+void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
+  requireKnownKeys(text, table, "[convert]", {"dim", "voxel_size", "grids"});
+  if (const auto* dim = table.get("dim"))
+    scene.dim =
+        static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
+  if (const auto* size = table.get("voxel_size")) {
+    scene.voxelSize = requireNumber(text, *size, "voxel_size");
+    if (!(*scene.voxelSize > 0)) text.fail(*size, "voxel_size must be positive");
+    if (scene.dim) text.fail(*size, "dim and voxel_size cannot both be given");
+  }
+  if (const auto* grids = table.get("grids")) scene.grids = readGrids(text, *grids);
+}
+
+// [[object]]
+
+PolygonMesh readInlineMesh(const SceneText& text, const toml::node& points,
+                           const toml::node& faces) {
+  PolygonMesh mesh;
+  for (const toml::node& point : requireArray(text, points, "points"))
+    mesh.points.push_back(requireVector(text, point, "a point"));
+  if (mesh.points.empty()) text.fail(points, "points must not be empty");
+
+  std::vector<Index> corners;
+  for (const toml::node& face : requireArray(text, faces, "faces")) {
+    corners.clear();
+    for (const toml::node& corner : requireArray(text, face, "a face"))
+      corners.push_back(static_cast<Index>(
+          requireInteger(text, corner, "a corner (0-based)", 0, mesh.pointCount() - 1)));
+    if (corners.size() < 3) text.fail(face, "a face must have at least 3 corners");
+    mesh.addFace(corners);
+  }
+  if (mesh.faceCount() == 0) text.fail(faces, "faces must not be empty");
+  return mesh;
+}
+
+Eigen::Affine3d readTransform(const SceneText& text, const toml::table& table) {
+  requireKnownKeys(text, table, "transform", {"scale", "rotate", "translate"});
+  Vec3d scale = Vec3d::Ones();
+  Vec3d degrees = Vec3d::Zero();
+  Vec3d translate = Vec3d::Zero();
+  if (const auto* node = table.get("scale")) {
+    if (node->is_number())
+      scale.setConstant(requireNumber(text, *node, "scale"));
+    else
+      scale = requireVector(text, *node, "scale");
+    if ((scale.array() == 0).any()) text.fail(*node, "scale must not be 0");
+  }
+  if (const auto* node = table.get("rotate")) degrees = requireVector(text, *node, "rotate");
+  if (const auto* node = table.get("translate"))
+    translate = requireVector(text, *node, "translate");
+
+  const Vec3d radians = degrees * (std::numbers::pi / 180);
+  return Eigen::Translation3d(translate) * Eigen::AngleAxisd(radians.z(), Vec3d::UnitZ()) *
+         Eigen::AngleAxisd(radians.y(), Vec3d::UnitY()) *
+         Eigen::AngleAxisd(radians.x(), Vec3d::UnitX()) * Eigen::Scaling(scale);
+}
+
+void reverseFaces(PolygonMesh& mesh) {
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+    std::reverse(mesh.faceVertices.begin() + mesh.faceOffsets[f] + 1,
+                 mesh.faceVertices.begin() + mesh.faceOffsets[f + 1]);
+}
+
+void transformMesh(const SceneText& text, const toml::node& node, PolygonMesh& mesh) {
+  const Eigen::Affine3d transform = readTransform(text, requireTable(text, node, "transform"));
+  for (Vec3d& point : mesh.points) {
+    point = transform * point;
+    if (!(point.cwiseAbs().maxCoeff() <= kMaxCoordinate))
+      text.fail(node, "transform moves the object beyond 1e15");
+  }
+  if (transform.linear().determinant() < 0) reverseFaces(mesh);
+}
+
+PolygonMesh readObjectMesh(const SceneText& text, const toml::table& table, Scene& scene) {
+  const auto* mesh = table.get("mesh");
+  const auto* points = table.get("points");
+  const auto* faces = table.get("faces");
+  if (mesh != nullptr && points == nullptr && faces == nullptr) {
+    const fs::path file = text.file.parent_path() / requireString(text, *mesh, "mesh");
+    scene.files.push_back(file);
+    try {
+      return readMesh(file);
+    } catch (const InputError& error) {
+      text.fail(*mesh, std::string("mesh: ") + error.what());
+    }
+  }
+  if (mesh == nullptr && points != nullptr && faces != nullptr)
+    return readInlineMesh(text, *points, *faces);
+  text.fail(table, "an object needs either mesh, or points and faces");
+}
+
+SceneObject readObject(const SceneText& text, const toml::table& table, Scene& scene) {
+  requireKnownKeys(text, table, "[[object]]", {"name", "mesh", "points", "faces", "transform"});
+  SceneObject object;
+  object.name = "object " + std::to_string(scene.objects.size() + 1);
+  if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");
+  object.mesh = readObjectMesh(text, table, scene);
+  if (const auto* transform = table.get("transform")) transformMesh(text, *transform, object.mesh);
+  return object;
+}
+
+SceneText parseToml(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error))
+    throw InputError(file.string() + ": " +
+                     (fs::exists(file, error) ? "is not a regular file" : "no such file; check the path"));
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream content;
+  if (!(content << in.rdbuf())) throw InputError(file.string() + ": is empty or cannot be read");
+  SceneText text{file, {}};
+  try {
+    text.root = toml::parse(content.str(), file.string());
+  } catch (const toml::parse_error& wrong) {
+    text.fail(wrong.source(), std::string(wrong.description()));
+  }
+  return text;
+}
+
+Scene readTomlScene(const fs::path& file) {
+  const SceneText text = parseToml(file);
+  Scene scene;
+  scene.files.push_back(file);
+  requireKnownKeys(text, text.root, "the scene", {"convert", "object"});
+  if (const auto* convert = text.root.get("convert"))
+    readConvert(text, requireTable(text, *convert, "[convert]"), scene);
+  if (const auto* objects = text.root.get("object"))
+    for (const toml::node& object : requireArray(text, *objects, "[[object]]"))
+      scene.objects.push_back(readObject(text, requireTable(text, object, "[[object]]"), scene));
+  if (scene.objects.empty()) throw InputError(file.string() + ": has no [[object]] to convert");
+  return scene;
+}
+
+}  // namespace
+
+Scene readScene(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".toml") return readTomlScene(file);
+  Scene scene;
+  scene.files.push_back(file);
+  scene.objects.push_back({file.stem().string(), readMesh(file)});
+  return scene;
+}
+
+}  // namespace vox

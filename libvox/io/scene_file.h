@@ -1,0 +1,37 @@
+#pragma once
+
+#include "libvox/grid/grid_kind.h"
+#include "libvox/mesh/polygon_mesh.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vox {
+
+struct SceneObject {
+  std::string name;
+  PolygonMesh mesh;  ///< world units, the object's transform applied
+};
+
+/// What to convert, and how, as far as the scene says.
+struct Scene {
+  std::optional<int> dim;           ///< [convert] dim: voxels along the longest side
+  std::optional<double> voxelSize;  ///< [convert] voxel_size: world units
+  std::optional<std::vector<GridKind>> grids;
+  std::vector<SceneObject> objects;          ///< at least one
+  std::vector<std::filesystem::path> files;  ///< the input file, then the meshes it names
+};
+
+/// Reads a scene file (.toml, DESIGN section 11), or a mesh file as a scene of one object.
+///
+/// Paths in a scene are relative to its folder. A transform scales, then rotates about x, y and z
+/// (degrees, in this order, counter-clockwise seen from the tip of the axis), then translates;
+/// where it mirrors, the faces are turned round so that they stay outward.
+///
+/// @throws InputError  unreadable or malformed; unknown keys and wrong types are named as
+///   "FILE:LINE:COLUMN: ..."
+Scene readScene(const std::filesystem::path& file);
+
+}  // namespace vox

@@ -1,0 +1,140 @@
+#include "libvox/io/text_scanner.h"
+
+#include "libvox/core/error.h"
+#include "libvox/io/read_mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace vox {
+
+namespace {
+
+constexpr std::size_t kMaxQuoted = 40;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+bool isPrintable(char c) {
+  return c >= 0x20 && c < 0x7f;
+}
+bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+// Whether a decimal literal that does not fit a double is too large rather than too small: the
+// decimal exponent of its first nonzero digit is positive.
+bool isTooLarge(std::string_view literal) {
+  const std::size_t mantissaEnd = std::min(literal.find_first_of("eE"), literal.size());
+  const std::string_view mantissa = literal.substr(0, mantissaEnd);
+  const std::size_t first = mantissa.find_first_of("123456789");
+  if (first == std::string_view::npos) return false;
+  const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+
+  std::string_view digits = literal.substr(std::min(mantissaEnd + 1, literal.size()));
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  std::int64_t exponent = 0;
+  const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+  if (parsed.ec == std::errc::result_out_of_range) return !digits.starts_with('-');
+
+  const double place = static_cast<double>(point) - static_cast<double>(first);
+  return static_cast<double>(exponent) + place > 0;
+}
+
+}  // namespace
+
+std::string quote(std::string_view text) {
+  const bool cut = text.size() > kMaxQuoted;
+  std::string result(text.substr(0, kMaxQuoted));
+  std::replace_if(
+      result.begin(), result.end(), [](char c) { return !isPrintable(c); }, '?');
+  return "'" + result + (cut ? "...'" : "'");
+}
+
+std::string onOneLine(std::string text) {
+  const auto isControl = [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; };
+  std::replace_if(text.begin(), text.end(), isControl, '?');
+  return text;
+}
+
+TextScanner::TextScanner(std::string_view text, std::string fileName, Rules rules)
+    : fileName_(std::move(fileName)), rules_(rules) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  at_ = text.data();
+  end_ = at_ + text.size();
+  for (const char c : {' ', '\t', '\v', '\f', '\n', '\r'})
+    endsToken_[static_cast<unsigned char>(c)] = true;
+  endsToken_['#'] = rules.hashComments;
+  endsToken_['\\'] = rules.continuations;
+}
+
+bool TextScanner::continuesHere() const {
+  return rules_.continuations && *at_ == '\\' && at_ + 1 != end_ &&
+         (at_[1] == '\n' || at_[1] == '\r');
+}
+
+void TextScanner::skipLineEnd() {
+  const bool crLf = *at_ == '\r' && at_ + 1 != end_ && at_[1] == '\n';
+  at_ += crLf ? 2 : 1;
+  if (at_ != end_) ++line_;  // the end of the text is not one more line
+}
+
+std::string_view TextScanner::tokenOnAnyLine() {
+  do {
+    const std::string_view found = token();
+    if (!found.empty()) return found;
+  } while (nextLine());
+  return {};
+}
+
+bool TextScanner::nextLine() {
+  bool inComment = false;
+  for (; at_ != end_; ++at_) {
+    if (*at_ == '\n' || *at_ == '\r') {
+      skipLineEnd();
+      return at_ != end_;
+    }
+    if (*at_ == '#') inComment = rules_.hashComments;
+    while (!inComment && at_ != end_ && continuesHere()) {
+      ++at_;
+      skipLineEnd();
+    }
+    if (at_ == end_) break;
+  }
+  return false;
+}
+
+double TextScanner::unusualNumber(std::string_view token) const {
+  const std::string_view text = withoutPlus(token);
+  const char* const textEnd = text.data() + text.size();
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), textEnd, value);
+
+  if (text.empty() || stop != textEnd || error == std::errc::invalid_argument)
+    fail("expected a number, found " + quote(token));
+  const std::string_view literal = text.substr(text[0] == '-' ? 1 : 0);
+  if (!isDigit(literal[0]) && literal[0] != '.') fail(quote(token) + " is not a finite number");
+  if (isTooLarge(literal)) fail(quote(token) + " is too large for a double");
+  return 0;
+}
+
+double TextScanner::coordinate(std::string_view token) const {
+  const double value = number(token);
+  if (std::abs(value) > kMaxCoordinate)
+    fail("coordinate " + quote(token) + " is larger than 1e15; scale the model down");
+  return value;
+}
+
+std::int64_t TextScanner::integer(std::string_view token) const {
+  const std::string_view text = withoutPlus(token);
+  std::int64_t value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range) fail(quote(token) + " is too large for an index");
+  if (error != std::errc{} || stop != text.data() + text.size())
+    fail("expected a whole number, found " + quote(token));
+  return value;
+}
+
+void TextScanner::failAt(std::size_t line, const std::string& what) const {
+  throw InputError(fileName_ + ":" + std::to_string(line) + ": " + what);
+}
+
+}  // namespace vox

@@ -1,0 +1,183 @@
+#include "libvox/io/write_mesh.h"
+
+#include "libvox/core/error.h"
+#include "libvox/io/byte_order.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace vox {
+
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
+constexpr int kDigits = 17;  // enough to tell any two doubles apart
+
+// Collects output and hands it to the stream in large pieces.
+class Writer {
+ public:
+  explicit Writer(std::ostream& out) : out_(out) { buffer_.reserve(kBufferBytes + 64); }
+
+  void text(std::string_view text) { buffer_ += text; }
+  void count(std::size_t number) { convert(number); }
+  void real(double number) { convert(number, std::chars_format::general, kDigits); }
+  template <typename T>
+  void binary(T number) {
+    appendLittleEndian(buffer_, number);
+  }
+
+  // Marks a place where the buffer may be emptied.
+  void endItem() {
+    if (buffer_.size() >= kBufferBytes) send();
+  }
+
+  void finish() {
+    send();
+    out_.flush();
+    check();
+  }
+
+ private:
+  template <typename... Arguments>
+  void convert(Arguments... arguments) {
+    std::array<char, 64> digits;
+    const auto [end, error] =
+        std::to_chars(digits.data(), digits.data() + digits.size(), arguments...);
+    buffer_.append(digits.data(), end);
+  }
+
+  void send() {
+    out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    buffer_.clear();
+    check();
+  }
+
+  void check() const {
+    if (!out_) throw IoError("the mesh could not be written; check the free space and permissions");
+  }
+
+  std::ostream& out_;
+  std::string buffer_;
+};
+
+void writePoint(Writer& out, const Vec3d& point) {
+  out.real(point.x());
+  out.text(" ");
+  out.real(point.y());
+  out.text(" ");
+  out.real(point.z());
+  out.text("\n");
+  out.endItem();
+}
+
+void writeObj(Writer& out, const PolygonMesh& mesh) {
+  out.text("# libvox\n");
+  for (const Vec3d& point : mesh.points) {
+    out.text("v ");
+    writePoint(out, point);
+  }
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    out.text("f");
+    for (const Index v : mesh.face(f)) {
+      out.text(" ");
+      out.count(std::size_t{v} + 1);
+      out.endItem();
+    }
+    out.text("\n");
+  }
+}
+
+void writeOff(Writer& out, const PolygonMesh& mesh) {
+  out.text("OFF\n# libvox\n");
+  out.count(mesh.pointCount());
+  out.text(" ");
+  out.count(mesh.faceCount());
+  out.text(" 0\n");
+  for (const Vec3d& point : mesh.points) writePoint(out, point);
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    out.count(mesh.faceSize(f));
+    for (const Index v : mesh.face(f)) {
+      out.text(" ");
+      out.count(v);
+      out.endItem();
+    }
+    out.text("\n");
+  }
+}
+
+// The common types where they suffice: some readers know no others.
+struct PlyTypes {
+  bool wideCounts;   // uint rather than uchar
+  bool wideIndices;  // uint rather than int
+};
+
+PlyTypes plyTypesFor(const PolygonMesh& mesh) {
+  Index largest = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f) largest = std::max(largest, mesh.faceSize(f));
+  return {largest > 255, mesh.points.size() > std::size_t{1} << 31};
+}
+
+void writePlyHeader(Writer& out, const PolygonMesh& mesh, PlyTypes types) {
+  out.text("ply\nformat binary_little_endian 1.0\ncomment libvox\nelement vertex ");
+  out.count(mesh.pointCount());
+  out.text("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
+  out.count(mesh.faceCount());
+  out.text("\nproperty list ");
+  out.text(types.wideCounts ? "uint " : "uchar ");
+  out.text(types.wideIndices ? "uint " : "int ");
+  out.text("vertex_indices\nend_header\n");
+}
+
+void writePly(Writer& out, const PolygonMesh& mesh) {
+  const PlyTypes types = plyTypesFor(mesh);
+  writePlyHeader(out, mesh, types);
+  for (const Vec3d& point : mesh.points) {
+    for (const double x : point) out.binary(x);
+    out.endItem();
+  }
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    if (types.wideCounts) {
+      out.binary(mesh.faceSize(f));
+    } else {
+      out.binary(static_cast<std::uint8_t>(mesh.faceSize(f)));
+    }
+    for (const Index v : mesh.face(f)) {
+      out.binary(v);  // int and uint look the same below 2^31
+      out.endItem();
+    }
+  }
+}
+
+}  // namespace
+
+MeshFormat meshFormatFor(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (extension == ".obj") return MeshFormat::kObj;
+  if (extension == ".ply") return MeshFormat::kPly;
+  if (extension == ".off") return MeshFormat::kOff;
+  throw UsageError(file.string() + ": cannot write this format; use .obj, .ply or .off");
+}
+
+void writeMesh(std::ostream& out, const PolygonMesh& mesh, MeshFormat format) {
+  Writer writer(out);
+  switch (format) {
+    case MeshFormat::kObj:
+      writeObj(writer, mesh);
+      break;
+    case MeshFormat::kPly:
+      writePly(writer, mesh);
+      break;
+    case MeshFormat::kOff:
+      writeOff(writer, mesh);
+      break;
+  }
+  writer.finish();
+}
+
+}  // namespace vox

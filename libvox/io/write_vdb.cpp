@@ -1,0 +1,98 @@
+// OpenVDB files with reproducible bytes.
+
+#include "libvox/io/write_vdb.h"
+
+#include "libvox/core/error.h"
+#include "libvox/core/hash.h"
+
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/Compression.h>
+
+#include <cstring>
+#include <iostream>
+#include <span>
+
+namespace vox {
+namespace {
+
+/// The file starts with magic (8 bytes), format version (4), library version (4 + 4), a flag (1)
+/// and then the UUID as 36 characters.
+constexpr std::streamoff kUuidOffset = 21;
+constexpr std::size_t kUuidLength = 36;
+
+/// Gives access to the archive's writer for any seekable stream; openvdb::io::File writes to a path
+/// only and does not report a full disk.
+class SeekableArchive : public openvdb::io::Archive {
+ public:
+  void writeTo(std::ostream& out, const openvdb::GridCPtrVec& grids,
+               const openvdb::MetaMap& metadata) const {
+    constexpr bool kSeekable = true;
+    Archive::write(out, grids, kSeekable, metadata);
+  }
+};
+
+std::uint32_t compressionFlags() {
+  std::uint32_t flags = openvdb::io::COMPRESS_ACTIVE_MASK;
+  if (openvdb::io::Archive::hasBloscCompression())
+    flags |= openvdb::io::COMPRESS_BLOSC;
+  else if (openvdb::io::Archive::hasZLibCompression())
+    flags |= openvdb::io::COMPRESS_ZIP;
+  return flags;
+}
+
+/// Hash of the whole stream with the UUID blanked out.
+std::string contentHash(std::iostream& stream) {
+  ContentHash hash;
+  std::vector<char> buffer(1 << 20);
+  stream.seekg(0);
+  bool atStart = true;
+  while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) ||
+         stream.gcount() > 0) {
+    if (atStart) std::memset(buffer.data() + kUuidOffset, '0', kUuidLength);
+    atStart = false;
+    hash.add({buffer.data(), static_cast<std::size_t>(stream.gcount())});
+  }
+  if (stream.bad()) throw IoError("the output cannot be read back");
+  stream.clear();
+  return hash.hex();
+}
+
+/// A hash as UUID of version 8 (RFC 9562: content is the maker's own).
+std::string asUuid(std::string hex) {
+  hex[12] = '8';
+  hex[16] = 'a';
+  for (const std::size_t dash : {8, 13, 18, 23}) hex.insert(dash, "-");
+  return hex;
+}
+
+bool looksLikeUuid(std::span<const char> text) {
+  return text[8] == '-' && text[13] == '-' && text[18] == '-' && text[23] == '-';
+}
+
+void replaceUuid(std::iostream& stream) {
+  std::vector<char> uuid(kUuidLength);
+  stream.seekg(kUuidOffset);
+  stream.read(uuid.data(), kUuidLength);
+  if (!stream || !looksLikeUuid(uuid))
+    throw IoError("this version of OpenVDB keeps the UUID of a file elsewhere");
+  const std::string name = asUuid(contentHash(stream));
+  stream.seekp(kUuidOffset);
+  stream.write(name.data(), static_cast<std::streamsize>(name.size()));
+}
+
+}  // namespace
+
+void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& grids,
+              const openvdb::MetaMap& fileMetadata) {
+  SeekableArchive archive;
+  archive.setCompression(compressionFlags());
+  try {
+    archive.writeTo(stream, {grids.begin(), grids.end()}, fileMetadata);
+  } catch (const openvdb::Exception& error) {
+    throw IoError(std::string("OpenVDB cannot write the grids: ") + error.what());
+  }
+  if (stream.flush()) replaceUuid(stream);
+  if (!stream.flush()) throw IoError("the output cannot be written; is the disk full?");
+}
+
+}  // namespace vox

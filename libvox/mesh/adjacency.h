@@ -1,0 +1,83 @@
+#pragma once
+
+#include "libvox/mesh/polygon_mesh.h"
+
+#include <compare>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+/// How the corners of a mesh hang together; both arrays have one slot per corner.
+struct Adjacency {
+  std::vector<Index> twin;        ///< corner of the neighbouring face on the same edge, or kNone
+  std::vector<Index> cornerFace;  ///< face of the corner
+};
+
+/// Adjacency of a mesh whose faces have at least 3 corners.
+///
+/// Two corners are twins when they are the only two on their edge and run through it in opposite
+/// directions. Every other edge (boundary, three and more faces, inconsistent winding, from a point
+/// to itself) separates its faces: its corners get kNone. The twins of any mesh therefore form an
+/// oriented manifold with boundary.
+///
+/// Cost O(C log C), parallel; result independent of thread count.
+Adjacency buildAdjacency(const PolygonMesh& mesh);
+
+/// One corner under the name of its undirected edge.
+struct EdgeCorner {
+  Index low;     ///< smaller point of the edge
+  Index high;    ///< larger point; equal to low where a face repeats a point
+  Index corner;  ///< the corner whose edge it is
+  auto operator<=>(const EdgeCorner&) const = default;
+};
+
+/// All corners sorted by edge, then by corner, so that the corners on one edge stand together.
+std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& adjacency);
+
+/// Calls visit(span of EdgeCorner) for each edge of a list made by cornersByEdge.
+template <class Visit>
+void forEachEdge(std::span<const EdgeCorner> corners, Visit&& visit) {
+  for (std::size_t first = 0, last = 0; first < corners.size(); first = last) {
+    while (last < corners.size() && corners[last].low == corners[first].low &&
+           corners[last].high == corners[first].high)
+      ++last;
+    visit(corners.subspan(first, last - first));
+  }
+}
+
+/// Next and previous corner in the same face.
+inline Index nextCorner(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
+  const Index f = adjacency.cornerFace[c];
+  return c + 1 == mesh.faceOffsets[f + 1] ? mesh.faceOffsets[f] : c + 1;
+}
+inline Index previousCorner(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
+  const Index f = adjacency.cornerFace[c];
+  return c == mesh.faceOffsets[f] ? mesh.faceOffsets[f + 1] - 1 : c - 1;
+}
+
+/// Corner of the next face counter-clockwise around the point of c, or kNone at the boundary.
+inline Index nextAroundPoint(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
+  return adjacency.twin[previousCorner(mesh, adjacency, c)];
+}
+/// Corner of the next face clockwise around the point of c, or kNone at the boundary.
+inline Index previousAroundPoint(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
+  const Index t = adjacency.twin[c];
+  return t == kNone ? kNone : nextCorner(mesh, adjacency, t);
+}
+
+/// The one-ring of a point as seen from one of its corners: the corners of the faces around the
+/// point that are joined to c through edges.
+struct OneRing {
+  std::vector<Index> corners;  ///< counter-clockwise; a closed ring starts at c, an open one at the
+                               ///< corner whose outgoing edge is boundary
+  bool closed = false;         ///< false: the ring ends at the boundary on both sides
+};
+OneRing oneRing(const PolygonMesh& mesh, const Adjacency& adjacency, Index c);
+
+/// Boundary loops: each a cyclic list of corners whose edges have no twin, so that the edge of each
+/// corner ends where the edge of the next one starts. Every boundary corner is in exactly one loop.
+/// A loop starts at its lowest corner; loops are ordered by their first corner. Cost O(C).
+std::vector<std::vector<Index>> boundaryLoops(const PolygonMesh& mesh, const Adjacency& adjacency);
+
+}  // namespace vox

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "libvox/core/types.h"
+
+#include <span>
+#include <vector>
+
+namespace vox {
+
+/// Face-vertex mesh of arbitrary polygons in flat arrays (CSR).
+///
+/// A corner is one slot of faceVertices. Corner c also names the directed edge from its vertex to
+/// the vertex of the next corner in its face. Faces may be concave, non-planar and of any size;
+/// points may be shared, duplicated or unused.
+struct PolygonMesh {
+  std::vector<Vec3d> points;             ///< V positions (world units, or voxels once transformed)
+  std::vector<Index> faceOffsets = {0};  ///< F + 1: face f has corners [offset f, offset f + 1)
+  std::vector<Index> faceVertices;       ///< C: the point of each corner
+
+  Index faceCount() const { return static_cast<Index>(faceOffsets.size() - 1); }
+  Index cornerCount() const { return static_cast<Index>(faceVertices.size()); }
+  Index pointCount() const { return static_cast<Index>(points.size()); }
+
+  /// Number of corners of face f.
+  Index faceSize(Index f) const { return faceOffsets[f + 1] - faceOffsets[f]; }
+
+  /// Points of face f in order.
+  std::span<const Index> face(Index f) const {
+    return {faceVertices.data() + faceOffsets[f], faceSize(f)};
+  }
+
+  /// Appends a face.
+  void addFace(std::span<const Index> vertices) {
+    faceVertices.insert(faceVertices.end(), vertices.begin(), vertices.end());
+    faceOffsets.push_back(cornerCount());
+  }
+};
+
+}  // namespace vox

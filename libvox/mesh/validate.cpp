@@ -1,0 +1,157 @@
+// Checks that name what they find.
+
+#include "libvox/mesh/validate.h"
+
+#include "libvox/core/error.h"
+
+#include <algorithm>
+#include <array>
+
+namespace vox {
+namespace {
+
+std::string str(std::size_t n) {
+  return std::to_string(n);
+}
+
+/// Collects defects, spelling out only the first few of each kind.
+class DefectList {
+ public:
+  explicit DefectList(std::size_t mostPerKind) : mostPerKind_(mostPerKind) {}
+
+  template <class Message>
+  void add(DefectKind kind, Index element, Message&& message) {
+    const bool spellOut = counts_[static_cast<std::size_t>(kind)]++ < mostPerKind_;
+    defects_.push_back({kind, element, spellOut ? message() : std::string()});
+  }
+  std::vector<Defect> take() { return std::move(defects_); }
+
+ private:
+  std::size_t mostPerKind_;
+  std::array<std::size_t, 5> counts_{};
+  std::vector<Defect> defects_;
+};
+
+void findRepeatedCorners(const PolygonMesh& mesh, DefectList& defects) {
+  std::vector<Index> sorted;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto face = mesh.face(f);
+    sorted.assign(face.begin(), face.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice == sorted.end()) continue;
+    defects.add(DefectKind::kRepeatedCorner, f, [&] {
+      return "face " + str(f) + " has point " + str(*twice) + " at more than one corner";
+    });
+  }
+}
+
+void addEdgeDefect(const Adjacency& adjacency, std::span<const EdgeCorner> edge,
+                   DefectList& defects) {
+  const auto name = [&] { return "edge (" + str(edge[0].low) + ", " + str(edge[0].high) + ")"; };
+  const std::string f = str(adjacency.cornerFace[edge[0].corner]);
+  const std::string g = str(adjacency.cornerFace[edge[1].corner]);
+  if (edge.size() > 2)
+    defects.add(DefectKind::kNonManifoldEdge, edge[0].corner, [&] {
+      return name() + " has " + str(edge.size()) + " faces: " + f + ", " + g + ", ...";
+    });
+  else
+    defects.add(DefectKind::kInconsistentWinding, edge[0].corner, [&] {
+      return "faces " + f + " and " + g + " run through " + name() + " in the same direction";
+    });
+}
+
+void findEdgeDefects(const PolygonMesh& mesh, const Adjacency& adjacency, DefectList& defects) {
+  forEachEdge(cornersByEdge(mesh, adjacency), [&](std::span<const EdgeCorner> edge) {
+    const bool repeatedCorner = edge[0].low == edge[0].high;  // reported with its face
+    const bool separated = adjacency.twin[edge[0].corner] == kNone;
+    if (edge.size() > 1 && separated && !repeatedCorner) addEdgeDefect(adjacency, edge, defects);
+  });
+}
+
+/// Bow ties and unused points, from the number of fans at each point.
+void findPointDefects(const PolygonMesh& mesh, const Adjacency& adjacency, DefectList& defects) {
+  std::vector<Index> fans(mesh.pointCount(), 0);
+  std::vector<bool> seen(mesh.cornerCount(), false);
+  for (Index c = 0; c < mesh.cornerCount(); ++c) {
+    if (seen[c]) continue;
+    ++fans[mesh.faceVertices[c]];
+    for (const Index k : oneRing(mesh, adjacency, c).corners) seen[k] = true;
+  }
+  for (Index v = 0; v < mesh.pointCount(); ++v)
+    if (fans[v] > 1)
+      defects.add(DefectKind::kBowTiePoint, v,
+                  [&] { return "point " + str(v) + " joins " + str(fans[v]) + " fans of faces"; });
+  for (Index v = 0; v < mesh.pointCount(); ++v)
+    if (fans[v] == 0)
+      defects.add(DefectKind::kUnusedPoint, v,
+                  [&] { return "point " + str(v) + " belongs to no face"; });
+}
+
+void requireValidOffsets(const PolygonMesh& mesh) {
+  if (mesh.faceOffsets.empty() || mesh.faceOffsets.front() != 0 ||
+      mesh.faceOffsets.back() != mesh.faceVertices.size())
+    throw MeshError("faceOffsets must start at 0 and end at the number of corners");
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto begin = mesh.faceOffsets[f];
+    const auto end = mesh.faceOffsets[f + 1];
+    if (end < begin || end - begin < 3)
+      throw MeshError("face " + str(f) + " has fewer than 3 corners");
+  }
+}
+
+}  // namespace
+
+std::string defectName(DefectKind kind) {
+  switch (kind) {
+    case DefectKind::kRepeatedCorner:
+      return "face with a repeated corner";
+    case DefectKind::kNonManifoldEdge:
+      return "non-manifold edge";
+    case DefectKind::kInconsistentWinding:
+      return "inconsistently wound edge";
+    case DefectKind::kBowTiePoint:
+      return "bow-tie point";
+    case DefectKind::kUnusedPoint:
+      return "unused point";
+  }
+  return "unknown defect";
+}
+
+std::vector<Defect> findDefects(const PolygonMesh& mesh, const Adjacency& adjacency,
+                                std::size_t mostPerKind) {
+  DefectList defects(mostPerKind);
+  findRepeatedCorners(mesh, defects);
+  findEdgeDefects(mesh, adjacency, defects);
+  findPointDefects(mesh, adjacency, defects);
+  return defects.take();
+}
+
+void requireValidArrays(const PolygonMesh& mesh) {
+  requireValidOffsets(mesh);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+    for (const Index v : mesh.face(f))
+      if (v >= mesh.pointCount())
+        throw MeshError("face " + str(f) + " names point " + str(v) + " of " +
+                        str(mesh.pointCount()));
+  for (Index v = 0; v < mesh.pointCount(); ++v)
+    if (!mesh.points[v].allFinite())
+      throw MeshError("point " + str(v) + " has a coordinate that is not finite");
+}
+
+void requireManifold(const PolygonMesh& mesh, const Adjacency& adjacency) {
+  const auto defects = findDefects(mesh, adjacency, 1);
+  const Defect* first = nullptr;
+  std::size_t count = 0;
+  for (const Defect& defect : defects) {
+    if (defect.kind == DefectKind::kBowTiePoint || defect.kind == DefectKind::kUnusedPoint)
+      continue;
+    if (first == nullptr) first = &defect;
+    ++count;
+  }
+  if (first == nullptr) return;
+  throw MeshError(first->message + (count > 1 ? " (and " + str(count - 1) + " more defects)" : "") +
+                  "; repair the mesh so that every edge has one or two faces, wound consistently");
+}
+
+}  // namespace vox

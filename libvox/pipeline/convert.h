@@ -1,0 +1,82 @@
+#pragma once
+
+#include "libvox/grid/grid_kind.h"
+#include "libvox/io/scene_file.h"
+#include "libvox/mesh/polygon_mesh.h"
+
+#include <openvdb/version.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Only named here: a translation unit that looks into a grid includes <openvdb/openvdb.h> itself.
+namespace openvdb {
+OPENVDB_USE_VERSION_NAMESPACE
+namespace OPENVDB_VERSION_NAME {
+class GridBase;
+}
+}  // namespace openvdb
+
+namespace vox {
+
+/// How to convert. What is not set here is taken from the scene, then from the default.
+struct ConvertOptions {
+  std::optional<int> dim;           ///< voxels along the longest side of the input; default 256
+  std::optional<double> voxelSize;  ///< world units; overrides dim
+  std::optional<std::vector<GridKind>> grids;  ///< default: density
+  std::uint64_t maxMemory = 0;  ///< bytes for meshes; 0: three quarters of what is available
+  int threads = 0;              ///< 0: all processors
+};
+
+inline constexpr int kDefaultDim = 256;
+
+/// What happened to one object.
+struct ObjectReport {
+  std::string name;
+  std::uint64_t inputFaces = 0;
+  int levels = 0;              ///< Doo-Sabin steps
+  std::uint64_t vertices = 0;  ///< vertices of the last level, each rounded to a voxel
+  double largestSpan = 0;      ///< longest L-inf face span of the last level, voxels
+};
+
+struct ConvertReport {
+  double voxelSize = 0;  ///< world units
+  std::vector<ObjectReport> objects;
+  std::uint64_t activeVoxels = 0;
+  double prepareSeconds = 0;
+  double subdivideSeconds = 0;  ///< with the search for the level
+  double voxelizeSeconds = 0;
+};
+
+struct Conversion {
+  std::vector<std::shared_ptr<openvdb::GridBase>> grids;  ///< one transform, in the order asked for
+  ConvertReport report;
+};
+
+/// Smooths every object of a scene by Doo-Sabin subdivision and converts it into shared OpenVDB
+/// grids. Each object is subdivided as a whole until its faces meet the vertex-conversion
+/// criterion, so the active voxels 6-separate the two sides of each surface. Grids carry the
+/// metadata of DESIGN section 9. The result does not depend on the number of threads.
+///
+/// @throws UsageError  dim or voxel size out of range
+/// @throws MeshError   an object is not an oriented manifold (named, with the offending element)
+/// @throws LimitError  not enough memory, or coordinates beyond the range of the grid
+Conversion convert(const Scene& scene, const ConvertOptions& options);
+
+/// Writes grids to a new file: complete or not at all, equal input giving equal bytes.
+/// @throws IoError  cannot be written, or exists and `overwrite` is false
+void writeGrids(const std::filesystem::path& file, const Conversion& conversion, bool overwrite);
+
+/// The same to a stream that must be readable, writable, seekable and empty.
+void writeGrids(std::iostream& stream, const Conversion& conversion);
+
+/// All objects of a scene as one mesh, after K Doo-Sabin steps.
+/// @throws MeshError, LimitError  as convert
+PolygonMesh refine(const Scene& scene, int levels, const ConvertOptions& options);
+
+}  // namespace vox

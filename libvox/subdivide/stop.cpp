@@ -1,0 +1,76 @@
+// When a mesh is fine enough.
+
+#include "libvox/subdivide/stop.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+
+namespace vox {
+namespace {
+
+constexpr Index kCornersPerTask = 4096;
+
+double distance(const Vec3d& a, const Vec3d& b) {
+  return (a - b).lpNorm<Eigen::Infinity>();
+}
+
+double quadSpan(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+  const double edges = std::max({distance(a, b), distance(b, c), distance(c, d), distance(d, a)});
+  return std::max(edges, std::min(distance(a, c), distance(b, d)));
+}
+
+double faceFaceSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image, Index c) {
+  const Index f = level.adjacency.cornerFace[c];
+  if (level.mesh.faceOffsets[f] != c) return 0;
+  return faceSpan({image.data() + c, level.mesh.faceSize(f)});
+}
+
+double edgeFaceSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image, Index c) {
+  if (!leadsEdge(level.adjacency, c)) return 0;
+  const Index t = level.adjacency.twin[c];
+  return quadSpan(image[nextCorner(level.mesh, level.adjacency, c)], image[c],
+                  image[nextCorner(level.mesh, level.adjacency, t)], image[t]);
+}
+
+double vertexFaceSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image, Index c,
+                      std::vector<Vec3d>& ring) {
+  if (ledRingSize(level.mesh, level.adjacency, c) < 3) return 0;
+  ring.clear();
+  Index k = c;
+  do {
+    ring.push_back(image[k]);
+    k = nextAroundPoint(level.mesh, level.adjacency, k);
+  } while (k != c);
+  return faceSpan(ring);
+}
+
+}  // namespace
+
+double faceSpan(std::span<const Vec3d> corners) {
+  if (corners.size() == 4) return quadSpan(corners[0], corners[1], corners[2], corners[3]);
+  Vec3d low = corners[0];
+  Vec3d high = corners[0];
+  for (const Vec3d& corner : corners) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  return (high - low).maxCoeff();
+}
+
+double largestChildSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<Index>(0, level.mesh.cornerCount(), kCornersPerTask), 0.0,
+      [&](const auto& range, double largest) {
+        std::vector<Vec3d> ring;
+        for (Index c = range.begin(); c != range.end(); ++c)
+          largest = std::max({largest, faceFaceSpan(level, image, c), edgeFaceSpan(level, image, c),
+                              vertexFaceSpan(level, image, c, ring)});
+        return largest;
+      },
+      [](double a, double b) { return std::max(a, b); });
+}
+
+}  // namespace vox

@@ -1,0 +1,179 @@
+#!/usr/bin/env bash
+# The command line as a user meets it: outputs, exit codes, and one clear line for each mistake.
+# Usage: cli.sh VOX SCENES
+set -uo pipefail
+vox=$(realpath "$1")
+scenes=$(realpath "$2")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# expect CODE PATTERN ARGS...: vox ARGS exits with CODE and, unless PATTERN is empty, prints exactly
+# one line on stderr that matches it. No output file may appear when it fails.
+expect() {
+  local code=$1 pattern=$2
+  shift 2
+  "$vox" "$@" >stdout 2>stderr </dev/null
+  local got=$?
+  [ "$got" -eq "$code" ] || fail "vox $*: exit code $got, not $code: $(cat stderr)"
+  [ -z "$pattern" ] && return
+  [ "$(wc -l <stderr)" -eq 1 ] || fail "vox $*: not one line on stderr: $(cat stderr)"
+  grep -qE -- "$pattern" stderr || fail "vox $*: stderr does not match '$pattern': $(cat stderr)"
+  if [ "$code" -ne 0 ]; then
+    grep -q '^vox: error: ' stderr || fail "vox $*: no 'vox: error:' prefix"
+    [ -z "$(find . -name '*out*' -not -name 'stdout')" ] || fail "vox $*: left $(ls)"
+  fi
+}
+
+# Bad input, exit code 3, never an output file.
+triangle=$'v 0 0 0\nv 1 0 0\nv 0 1 0\n'
+: >empty.obj
+: >empty.ply
+: >empty.toml
+mkdir folder.obj
+printf '%sf 0 1 2\n' "$triangle" >zero.obj
+printf '%sf 1 2 4\n' "$triangle" >beyond.obj
+printf '%sf 1 2 -4\n' "$triangle" >negative.obj
+printf 'v 0 nan 0\n%sf 1 2 3\n' "$triangle" >nan.obj
+printf 'v 0 inf 0\n%sf 1 2 3\n' "$triangle" >inf.obj
+printf 'v 0 1e30 0\n%sf 1 2 3\n' "$triangle" >large.obj
+printf '%sf 1 2\n' "$triangle" >digon.obj
+printf '%s' "$triangle" >faceless.obj
+printf '%sf 1 2 3\nf 1 2 3\n' "$triangle" >winding.obj
+printf '%sf 1 2 3\n' "$triangle" >mesh.xyz
+printf '%sf 1 2 3\n' "$triangle" >good.obj
+printf '[convert]\nspeed = 3\n' >key.toml
+printf '[convert\n' >syntax.toml
+printf '[[object]]\nmesh = "missing.obj"\n' >missing.toml
+cat >header.txt <<'PLY'
+ply
+format binary_little_endian 1.0
+element vertex 3
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+end_header
+PLY
+{ cat header.txt; printf '\0\0\0\0'; } >truncated.ply
+chars() { head -c "$1" /dev/urandom; }
+chars 300 >garbage.stl
+chars 300 >garbage.om
+for command in convert subdivide; do
+  out=out.vdb
+  more=()
+  [ $command = subdivide ] && out=out.obj && more=(--levels 1)
+  try() { expect 3 "$1" $command "$2" -o $out "${more[@]}"; }
+  try 'empty.obj: .*empty' empty.obj
+  try 'empty.ply: .*empty' empty.ply
+  try 'empty.toml: ' empty.toml
+  try 'missing.obj: .*no such file' missing.obj
+  try 'folder.obj: .*(folder|directory|regular)' folder.obj
+  try 'zero.obj:4: ' zero.obj
+  try 'beyond.obj:4: ' beyond.obj
+  try 'negative.obj:4: ' negative.obj
+  try 'nan.obj:1: ' nan.obj
+  try 'inf.obj:1: ' inf.obj
+  try 'large.obj:1: ' large.obj
+  try 'digon.obj:4: ' digon.obj
+  try 'faceless.obj: .*face' faceless.obj
+  try 'faces 0 and 1 run through edge' winding.obj
+  try 'mesh.xyz: .*extension' mesh.xyz
+  try 'truncated.ply: .*truncated' truncated.ply
+  try 'garbage.stl: ' garbage.stl
+  try 'garbage.om: ' garbage.om
+  try "key.toml:2:1: unknown key 'speed'" key.toml
+  try 'syntax.toml:1:' syntax.toml
+  try 'missing.toml:2:8: .*missing.obj' missing.toml
+done
+
+# Usage, exit code 2.
+expect 2 'dim' convert good.obj -o out.vdb --dim 0
+expect 2 'dim' convert good.obj -o out.vdb --dim many
+expect 2 'voxel-size' convert good.obj -o out.vdb --voxel-size -1
+expect 2 'voxel-size' convert good.obj -o out.vdb --voxel-size 0
+expect 2 'voxel-size.*dim|dim.*voxel-size' convert good.obj -o out.vdb --voxel-size 1 --dim 3
+expect 2 'unknown grid .fog.' convert good.obj -o out.vdb --grids fog
+expect 2 'unknown option --dims; did you mean --dim?' convert good.obj -o out.vdb --dims 3
+expect 2 'unknown option --voxelsize; did you mean --voxel-size?' convert good.obj -o out.vdb --voxelsize=1
+expect 2 'unknown command konvert; did you mean convert?' konvert good.obj -o out.vdb
+expect 2 'output' convert good.obj
+expect 2 'levels' subdivide good.obj -o out.obj
+expect 2 'levels' subdivide good.obj -o out.obj --levels -1
+expect 2 'out.vdb: .*\.obj' subdivide good.obj -o out.vdb --levels 1
+expect 2 'max-memory' convert good.obj -o out.vdb --max-memory lots
+expect 2 '' # no command at all
+
+# Limits, exit code 4; output, exit code 5.
+expect 4 'memory' convert "$scenes/cube.toml" -o out.vdb --dim 100000 --max-memory 256M
+expect 4 'voxel size of at least' convert "$scenes/cube.toml" -o out.vdb --voxel-size 1e-12
+expect 4 'memory' subdivide "$scenes/cube.toml" -o out.obj --levels 20 --max-memory 256M
+expect 5 'nowhere' convert good.obj -o nowhere/out.vdb
+expect 5 'regular' convert good.obj -o /dev/full
+"$vox" convert good.obj -o - --dim 8 >/dev/full 2>stderr
+[ $? -eq 5 ] || fail "a full disk behind stdout: $(cat stderr)"
+
+# What works.
+expect 0 '' --help
+expect 0 '' --version
+for command in convert subdivide info; do
+  expect 0 '' $command --help
+done
+expect 0 'active voxels' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask
+expect 5 'force' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask
+cp jack.vdb first.vdb
+expect 0 'active voxels' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask --force --threads 1
+cmp -s jack.vdb first.vdb || fail "two runs differ"
+"$vox" convert "$scenes/toy_jack.toml" -o - --dim 64 --grids density,mask 2>/dev/null | cmp -s - first.vdb || fail "stdout differs"
+expect 0 '' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask --force --quiet
+[ -s stderr ] && fail "--quiet is not quiet"
+
+# Each scene gives the voxels it states.
+for scene in "$scenes"/*.toml; do
+  stated=$(sed -n 's/^# Active voxels: //p' "$scene")
+  expect 0 "scene.vdb: $stated active voxels" convert "$scene" -o scene.vdb --force
+done
+
+expect 0 '' info jack.vdb "$scenes/toy_jack.toml" "$scenes/sheet.toml"
+grep -q 'grid density: Tree_float_5_4_3, fog volume' stdout || fail "info: no density"
+grep -q 'grid mask: Tree_mask_5_4_3' stdout || fail "info: no mask"
+grep -q 'Euler characteristic 2' stdout || fail "info: the jack is not a sphere"
+grep -q 'closed' stdout || fail "info: the jack is not closed"
+grep -q '1 loop of 16 edges' stdout || fail "info: the sheet has no boundary"
+expect 0 '' info --json jack.vdb "$scenes/cube.obj"
+python3 - stdout <<'PY' || fail "info --json"
+import json, sys
+vdb, mesh = json.load(open(sys.argv[1]))
+assert [grid["name"] for grid in vdb["grids"]] == ["density", "mask"]
+assert vdb["grids"][0]["active_voxels"] == vdb["grids"][1]["active_voxels"] > 1000
+assert mesh["meshes"][0]["valences"] == {"3": 8}
+PY
+expect 3 'missing.vdb' info missing.vdb
+
+for format in obj ply off; do
+  expect 0 '96 points, 98 faces' subdivide "$scenes/cube.obj" -o "cube.$format" --levels 2
+  expect 0 '' subdivide "cube.$format" -o again.obj --levels 0 --force
+  [ $format = obj ] && cp again.obj reference.obj
+  cmp -s again.obj reference.obj || fail "$format does not keep the mesh"
+done
+"$vox" subdivide "$scenes/cube.obj" -o - --levels 2 2>/dev/null | cmp -s - cube.obj || fail "OBJ on stdout"
+
+# An interrupt leaves the target as it was.
+echo old >kept.vdb
+"$vox" convert "$scenes/toy_jack.toml" -o kept.vdb --force --dim 1500 2>/dev/null &
+sleep 0.3
+kill -INT $! 2>/dev/null
+wait $!
+code=$?
+{ [ $code -eq 130 ] && [ "$(cat kept.vdb)" = old ]; } || [ $code -eq 0 ] || fail "interrupt: exit code $code"
+[ -z "$(find . -name '*.part')" ] || fail "partial file left"
+
+[ $failures -eq 0 ] && echo "all as documented"
+exit $((failures > 0))

@@ -1,0 +1,120 @@
+#include "libvox/io/scene_file.h"
+
+#include "libvox/core/error.h"
+#include "libvox/mesh/validate.h"
+#include "tests/shapes.h"
+#include "tests/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+
+using namespace vox;
+using Catch::Contains;
+
+namespace {
+
+const std::string kTriangle = "points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\n";
+
+Scene read(const std::string& text) {
+  const test::TemporaryFolder folder;
+  return readScene(folder.write("scene.toml", text));
+}
+
+void checkRefused(const std::string& text, const std::string& where, const std::string& what) {
+  CAPTURE(text);
+  try {
+    read(text);
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    CHECK_THAT(error.what(), Contains("scene.toml" + where) && Contains(what));
+    CHECK(std::string(error.what()).find('\n') == std::string::npos);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a scene gives settings and objects", "[scene]") {
+  const Scene scene =
+      read("[convert]\ndim = 128\ngrids = ['mask', 'density']\n[[object]]\nname = 't'\n" +
+           kTriangle + "[[object]]\n" + kTriangle);
+  CHECK(scene.dim == 128);
+  CHECK_FALSE(scene.voxelSize.has_value());
+  CHECK(scene.grids == std::vector{GridKind::kMask, GridKind::kDensity});
+  REQUIRE(scene.objects.size() == 2);
+  CHECK(scene.objects[0].name == "t");
+  CHECK(scene.objects[1].name == "object 2");
+  CHECK(scene.objects[0].mesh.points[1] == Vec3d(1, 0, 0));
+  CHECK(scene.objects[0].mesh.faceVertices == std::vector<Index>{0, 1, 2});
+}
+
+TEST_CASE("a mesh path is relative to its scene", "[scene]") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  folder.write("sub/a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+  folder.write("sub/s.toml", "[[object]]\nmesh = 'a.obj'\n");
+  const Scene scene = readScene(folder / "sub/s.toml");
+  CHECK(scene.objects[0].mesh.points[2] == Vec3d(0, 2, 0));
+  CHECK(scene.files.size() == 2);
+}
+
+TEST_CASE("a mesh file is a scene of one object named after it", "[scene]") {
+  const test::TemporaryFolder folder;
+  const Scene scene = readScene(folder.write("ear.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n"));
+  REQUIRE(scene.objects.size() == 1);
+  CHECK(scene.objects[0].name == "ear");
+}
+
+TEST_CASE("a transform scales, rotates about x, y, z, then translates", "[scene][golden]") {
+  const auto pointAfter = [](const std::string& transform) {
+    return read("[[object]]\n" + kTriangle + "transform = " + transform).objects[0].mesh.points[1];
+  };
+  const auto near = [](const Vec3d& a, const Vec3d& b) { return (a - b).norm() < 1e-15; };
+  CHECK(near(pointAfter("{ translate = [1, 2, 3] }"), {2, 2, 3}));
+  CHECK(near(pointAfter("{ scale = 2, translate = [1, 0, 0] }"), {3, 0, 0}));
+  CHECK(near(pointAfter("{ scale = [3, 1, 1] }"), {3, 0, 0}));
+  CHECK(near(pointAfter("{ rotate = [0, 0, 90] }"), {0, 1, 0}));
+  CHECK(near(pointAfter("{ rotate = [0, 90, 0] }"), {0, 0, -1}));
+  CHECK(near(pointAfter("{ rotate = [90, 0, 90] }"), {0, 1, 0}));   // x leaves (1, 0, 0) alone
+  CHECK(near(pointAfter("{ rotate = [0, 90, 90] }"), {0, 0, -1}));  // y first, then z
+}
+
+TEST_CASE("a mirrored object keeps its faces outward", "[scene]") {
+  const Scene scene = read("[[object]]\n" + kTriangle + "transform = { scale = [1, 1, -1] }");
+  CHECK(scene.objects[0].mesh.faceVertices == std::vector<Index>{0, 2, 1});
+}
+
+TEST_CASE("what a scene gets wrong is named with line and column", "[scene][error]") {
+  const std::string object = "[[object]]\n" + kTriangle;
+  checkRefused("[convert]\nsize = 3\n", ":2:1:", "unknown key 'size' in [convert]");
+  checkRefused("colour = 1\n", ":1:1:", "unknown key 'colour'");
+  checkRefused(object + "smooth = true\n", ":4:1:", "unknown key 'smooth' in [[object]]");
+  checkRefused(object + "transform = { move = [0, 0, 0] }", ":4:15:", "unknown key 'move'");
+  checkRefused("[convert]\ndim = 0\n", ":2:7:", "dim must lie between 1 and");
+  checkRefused("[convert]\ndim = 'big'\n", ":2:7:", "dim must be an integer");
+  checkRefused("[convert]\nvoxel_size = -1\n", ":2:14:", "voxel_size must be positive");
+  checkRefused("[convert]\ndim = 3\nvoxel_size = 1\n", ":3:14:", "cannot both be given");
+  checkRefused("[convert]\ngrids = ['fog']\n", ":2:10:", "unknown grid 'fog'; known are density");
+  checkRefused("[[object]]\nname = 'x'\n", ":1:1:", "needs either mesh, or points and faces");
+  checkRefused("[[object]]\nmesh = 'no.obj'\n", ":2:8:", "no.obj");
+  checkRefused("[[object]]\npoints = [[0, 0]]\nfaces = [[0, 0, 0]]\n", ":2:11:", "3 numbers");
+  checkRefused("[[object]]\npoints = [[0, 0, nan]]\nfaces = [[0, 0, 0]]\n", ":2:18:", "finite");
+  checkRefused("[[object]]\npoints = [[0, 0, 1e30]]\nfaces = [[0, 0, 0]]\n", ":2:18:", "1e15");
+  checkRefused("[[object]]\npoints = [[0, 0, 1]]\nfaces = [[0, 0, 1]]\n",
+               ":3:17:", "between 0 and 0");
+  checkRefused("[[object]]\npoints = [[0, 0, 1]]\nfaces = [[0, 0]]\n", ":3:10:", "3 corners");
+  checkRefused(object + "transform = { scale = 0 }", ":4:23:", "scale must not be 0");
+  checkRefused("[convert\n", ":1:9:", "");
+  checkRefused("", ":", "empty");
+  checkRefused("[convert]\n", ":", "no [[object]]");
+}
+
+TEST_CASE("the shipped scenes are sound", "[scene]") {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(VOX_SCENES)) {
+    if (entry.path().extension() != ".toml") continue;
+    CAPTURE(entry.path());
+    for (const SceneObject& object : readScene(entry.path()).objects)
+      CHECK(findDefects(object.mesh, buildAdjacency(object.mesh)).empty());
+    ++scenes;
+  }
+  CHECK(scenes >= 5);
+}

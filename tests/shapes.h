@@ -1,0 +1,56 @@
+#pragma once
+
+#include "libvox/mesh/polygon_mesh.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+/// Mesh families and helpers for the tests.
+namespace vox::test {
+
+PolygonMesh meshOf(std::vector<Vec3d> points, std::initializer_list<std::vector<Index>> faces);
+
+PolygonMesh cube();                           ///< [-1, 1]^3, 6 quads
+PolygonMesh tetrahedron();                    ///< 4 triangles
+PolygonMesh regularPolygon(int sides);        ///< one open face in the plane z = 0
+PolygonMesh pyramid(int sides);               ///< apex of valence `sides` over an n-gon
+PolygonMesh prism(int sides);                 ///< two n-gons joined by quads
+PolygonMesh dodecahedron();                   ///< 12 pentagons
+PolygonMesh torusGrid(int major, int minor);  ///< closed quads
+PolygonMesh sheet(int columns, int rows);     ///< open grid of quads, wavy
+PolygonMesh valenceTwo();                     ///< closed, with a point between only two faces
+PolygonMesh bowTie();                         ///< two tetrahedra that share a point
+PolygonMesh moebius(int quads);               ///< cannot be oriented
+
+/// One shape of every family that can be subdivided.
+struct Shape {
+  std::string name;
+  PolygonMesh mesh;
+  bool closed;
+};
+const std::vector<Shape>& shapes();
+
+/// The same mesh with points and faces renumbered and faces rotated, at random.
+PolygonMesh shuffled(const PolygonMesh& mesh, std::uint32_t seed);
+
+Vec3d centroid(const std::vector<Vec3d>& points);
+Vec3d faceCentroid(const PolygonMesh& mesh, Index f);
+
+/// Corner-wise equality up to `tolerance` after sorting; for clouds whose points stand apart.
+bool samePoints(std::vector<Vec3d> a, std::vector<Vec3d> b, double tolerance);
+
+/// Runs work on exactly n threads: on a small machine neither the control nor the arena is enough.
+template <class Work>
+auto onThreads(int n, Work&& work) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(n));
+  tbb::task_arena arena(n);
+  return arena.execute(work);
+}
+
+}  // namespace vox::test

@@ -1,0 +1,77 @@
+#include "libvox/inspect/summary.h"
+
+#include "libvox/core/error.h"
+#include "libvox/pipeline/convert.h"
+#include "tests/shapes.h"
+#include "tests/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+
+using namespace vox;
+using Catch::Contains;
+using Histogram = std::map<std::uint64_t, std::uint64_t>;
+
+TEST_CASE("a summary counts what there is", "[inspect][golden]") {
+  const MeshSummary prism = summarize(test::prism(5));
+  CHECK(prism.points == 10);
+  CHECK(prism.edges == 15);
+  CHECK(prism.faces == 7);
+  CHECK(prism.components == 1);
+  CHECK(prism.eulerCharacteristic == 2);
+  CHECK(prism.boundaryLoops.empty());
+  CHECK(prism.faceSizes == Histogram{{4, 5}, {5, 2}});
+  CHECK(prism.valences == Histogram{{3, 10}});
+
+  const MeshSummary sheet = summarize(test::sheet(5, 4));
+  CHECK(sheet.eulerCharacteristic == 1);
+  CHECK(sheet.boundaryLoops == std::vector<std::uint64_t>{18});
+
+  CHECK(summarize(test::torusGrid(8, 5)).eulerCharacteristic == 0);
+  CHECK(summarize(test::moebius(8)).eulerCharacteristic == 0);
+  CHECK(summarize(test::bowTie()).components == 2);
+}
+
+TEST_CASE("defects and unused points are counted apart", "[inspect]") {
+  PolygonMesh mesh = test::cube();
+  mesh.points.emplace_back(100, 0, 0);
+  const MeshSummary summary = summarize(mesh);
+  CHECK(summary.points == 9);
+  CHECK(summary.eulerCharacteristic == 2);
+  CHECK(summary.box.high == Vec3d(1, 1, 1));
+  CHECK(summary.defects.size() == 1);
+}
+
+TEST_CASE("a .vdb file is summarized grid by grid", "[inspect]") {
+  const test::TemporaryFolder folder;
+  Scene scene;
+  scene.objects.push_back({"cube", test::cube()});
+  ConvertOptions options;
+  options.dim = 20;
+  options.grids = std::vector{GridKind::kDensity, GridKind::kMask};
+  const Conversion conversion = convert(scene, options);
+  writeGrids(folder / "cube.vdb", conversion, false);
+
+  const auto grids = summarizeVdb(folder / "cube.vdb");
+  REQUIRE(grids.size() == 2);
+  CHECK(grids[0].name == "density");
+  CHECK(grids[0].type == "Tree_float_5_4_3");
+  CHECK(grids[0].gridClass == "fog volume");
+  CHECK(grids[1].type == "Tree_mask_5_4_3");
+  for (const GridSummary& grid : grids) {
+    CHECK(grid.activeVoxels == conversion.report.activeVoxels);
+    CHECK(grid.voxelSize == std::array<double, 3>{0.1, 0.1, 0.1});
+    CHECK(grid.metadata.at("vox_guarantee") == "6-separating");
+    CHECK(grid.metadata.at("vox_options") == "dim=20");
+    // Face centres of the cube stay on the surface: x = +-1 is index +-10.
+    CHECK(grid.low == std::array<int, 3>{-10, -10, -10});
+    CHECK(grid.high == std::array<int, 3>{10, 10, 10});
+  }
+}
+
+TEST_CASE("files that are not OpenVDB are refused", "[inspect][error]") {
+  const test::TemporaryFolder folder;
+  CHECK_THROWS_WITH(summarizeVdb(folder / "none.vdb"), Contains("none.vdb: no such file"));
+  CHECK_THROWS_WITH(summarizeVdb(folder.path()), Contains("not a regular file"));
+  CHECK_THROWS_AS(summarizeVdb(folder.write("empty.vdb", "")), InputError);
+  CHECK_THROWS_AS(summarizeVdb(folder.write("text.vdb", "not a grid, not at all")), InputError);
+}
