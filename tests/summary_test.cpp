@@ -71,7 +71,7 @@ TEST_CASE("a .vdb file is summarized grid by grid", "[inspect]") {
 TEST_CASE("files that are not OpenVDB are refused", "[inspect][error]") {
   const test::TemporaryFolder folder;
   CHECK_THROWS_WITH(summarizeVdb(folder / "none.vdb"), Contains("none.vdb: no such file"));
-  CHECK_THROWS_WITH(summarizeVdb(folder.path()), Contains("not a regular file"));
+  CHECK_THROWS_WITH(summarizeVdb(folder.path()), Contains("is a directory"));
   CHECK_THROWS_AS(summarizeVdb(folder.write("empty.vdb", "")), InputError);
   CHECK_THROWS_AS(summarizeVdb(folder.write("text.vdb", "not a grid, not at all")), InputError);
 }

@@ -62,7 +62,7 @@ TEST_CASE("no path of white voxels joins the sides of a mesh of faces up to one 
     REQUIRE(sides.outside > 0);
     REQUIRE(sides.leaks == 0);
   }
-  CHECK(tried > 30);      // the test has something to check
+  CHECK(tried > 30);     // the test has something to check
   CHECK(largest > 0.9);  // close to the criterion
 }
 

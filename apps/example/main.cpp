@@ -3,7 +3,6 @@
 
 #include <libvox/core/error.h>
 #include <libvox/pipeline/convert.h>
-
 #include <openvdb/openvdb.h>
 
 #include <iostream>

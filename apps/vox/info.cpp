@@ -2,12 +2,12 @@
 
 #include "apps/vox/command.h"
 #include "libvox/inspect/summary.h"
+#include "libvox/io/input_file.h"
 #include "libvox/io/scene_file.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -114,7 +114,7 @@ void print(const GridSummary& grid) {
 Json describe(const std::string& file, bool json) {
   Json all = {{"file", file}};
   if (!json) std::cout << file << '\n';
-  if (std::filesystem::path(file).extension() == ".vdb") {
+  if (lowerExtension(file) == ".vdb") {
     for (const GridSummary& grid : summarizeVdb(file)) {
       all["grids"].push_back(toJson(grid));
       if (!json) print(grid);

@@ -2,14 +2,18 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace vox {
+
+/// `text` with its control characters, line ends among them, replaced by ?.
+std::string onOneLine(std::string text);
 
 /// Base of everything libvox throws on purpose. `what()` is one line that names the file, line or
 /// element, says what is wrong and, where it helps, what to do.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(std::string message) : std::runtime_error(onOneLine(std::move(message))) {}
 
   /// Exit code of a command that fails with this error (DESIGN section 10).
   virtual int exitCode() const noexcept = 0;

@@ -4,6 +4,8 @@
 
 namespace vox {
 
-const char* version() noexcept { return VOX_VERSION; }
+const char* version() noexcept {
+  return VOX_VERSION;
+}
 
 }  // namespace vox

@@ -3,6 +3,7 @@
 #include "libvox/inspect/summary.h"
 
 #include "libvox/core/error.h"
+#include "libvox/io/input_file.h"
 #include "libvox/mesh/adjacency.h"
 
 #include <openvdb/openvdb.h>
@@ -82,11 +83,7 @@ MeshSummary summarize(const PolygonMesh& mesh) {
 }
 
 std::vector<GridSummary> summarizeVdb(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    throw InputError(
-        file.string() + ": " +
-        (std::filesystem::exists(file, error) ? "is not a regular file" : "no such file; check the path"));
+  requireInputFile(file);
   openvdb::initialize();
   std::vector<GridSummary> summaries;
   try {

@@ -23,7 +23,4 @@ inline constexpr double kMaxCoordinate = 1e15;
 ///   text is malformed. The message starts with "FILE:LINE: " (text) or "FILE: " (binary).
 PolygonMesh readMesh(const std::filesystem::path& file);
 
-/// Whether readMesh knows the extension of this file name.
-bool isMeshFile(const std::filesystem::path& file);
-
 }  // namespace vox

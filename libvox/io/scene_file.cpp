@@ -3,19 +3,18 @@
 #include "libvox/io/scene_file.h"
 
 #include "libvox/core/error.h"
+#include "libvox/io/input_file.h"
 #include "libvox/io/read_mesh.h"
-#include "libvox/mesh/validate.h"
+#include "libvox/io/text_scanner.h"
 
 #include <Eigen/Geometry>
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <initializer_list>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <string_view>
 
 namespace vox {
@@ -37,14 +36,6 @@ struct SceneText {
   }
 };
 
-std::string inQuotes(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string out = "'";
-  for (const char c : text.substr(0, kMost))
-    out += std::iscntrl(static_cast<unsigned char>(c)) ? '?' : c;
-  return out + (text.size() > kMost ? "...'" : "'");
-}
-
 void requireKnownKeys(const SceneText& scene, const toml::table& table, const std::string& where,
                       std::initializer_list<std::string_view> known) {
   for (const auto& [key, value] : table) {
@@ -52,7 +43,7 @@ void requireKnownKeys(const SceneText& scene, const toml::table& table, const st
     std::string names;
     for (const auto name : known) names += (names.empty() ? "" : ", ") + std::string(name);
     scene.fail(key.source(),
-               "unknown key " + inQuotes(key.str()) + " in " + where + "; known are " + names);
+               "unknown key " + quote(key.str()) + " in " + where + "; known are " + names);
   }
 }
 
@@ -107,7 +98,7 @@ std::vector<GridKind> readGrids(const SceneText& scene, const toml::node& node) 
   for (const toml::node& item : requireArray(scene, node, "grids")) {
     const std::string name = requireString(scene, item, "a grid");
     const auto kind = gridNamed(name);
-    if (!kind) scene.fail(item, "unknown grid " + inQuotes(name) + "; known are " + allGridNames());
+    if (!kind) scene.fail(item, "unknown grid " + quote(name) + "; known are " + allGridNames());
     if (std::find(grids.begin(), grids.end(), *kind) == grids.end()) grids.push_back(*kind);
   }
   if (grids.empty()) scene.fail(node, "grids must name at least one of " + allGridNames());
@@ -216,16 +207,10 @@ SceneObject readObject(const SceneText& text, const toml::table& table, Scene& s
 }
 
 SceneText parseToml(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error))
-    throw InputError(file.string() + ": " +
-                     (fs::exists(file, error) ? "is not a regular file" : "no such file; check the path"));
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream content;
-  if (!(content << in.rdbuf())) throw InputError(file.string() + ": is empty or cannot be read");
+  const std::string content = contentsOf(file);
   SceneText text{file, {}};
   try {
-    text.root = toml::parse(content.str(), file.string());
+    text.root = toml::parse(content, file.string());
   } catch (const toml::parse_error& wrong) {
     text.fail(wrong.source(), std::string(wrong.description()));
   }
@@ -249,10 +234,7 @@ Scene readTomlScene(const fs::path& file) {
 }  // namespace
 
 Scene readScene(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".toml") return readTomlScene(file);
+  if (lowerExtension(file) == ".toml") return readTomlScene(file);
   Scene scene;
   scene.files.push_back(file);
   scene.objects.push_back({file.stem().string(), readMesh(file)});

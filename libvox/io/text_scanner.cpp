@@ -49,12 +49,6 @@ std::string quote(std::string_view text) {
   return "'" + result + (cut ? "...'" : "'");
 }
 
-std::string onOneLine(std::string text) {
-  const auto isControl = [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; };
-  std::replace_if(text.begin(), text.end(), isControl, '?');
-  return text;
-}
-
 TextScanner::TextScanner(std::string_view text, std::string fileName, Rules rules)
     : fileName_(std::move(fileName)), rules_(rules) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());

@@ -14,9 +14,6 @@ namespace vox {
 /// `text` between quotes, fit for a one-line message: at most 40 characters, unprintable ones as ?.
 std::string quote(std::string_view text);
 
-/// `text` with its control characters replaced by ?, so that it stays on one line.
-std::string onOneLine(std::string text);
-
 /// Cuts a text into lines and blank-separated tokens, converts numbers independently of the locale,
 /// and reports errors as "FILE:LINE: ...". A line ends with LF, CRLF or CR; a byte order mark at
 /// the start is skipped. Keeps a view: the text must outlive the scanner.

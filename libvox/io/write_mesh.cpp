@@ -2,6 +2,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/io/byte_order.h"
+#include "libvox/io/input_file.h"
 
 #include <algorithm>
 #include <array>
@@ -155,9 +156,7 @@ void writePly(Writer& out, const PolygonMesh& mesh) {
 }  // namespace
 
 MeshFormat meshFormatFor(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = lowerExtension(file);
   if (extension == ".obj") return MeshFormat::kObj;
   if (extension == ".ply") return MeshFormat::kPly;
   if (extension == ".off") return MeshFormat::kOff;

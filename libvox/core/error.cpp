@@ -1,0 +1,15 @@
+// Messages that stay on one line whatever a file name or a token holds.
+
+#include "libvox/core/error.h"
+
+#include <algorithm>
+
+namespace vox {
+
+std::string onOneLine(std::string text) {
+  const auto isControl = [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; };
+  std::replace_if(text.begin(), text.end(), isControl, '?');
+  return text;
+}
+
+}  // namespace vox
