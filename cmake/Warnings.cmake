@@ -6,6 +6,8 @@ target_compile_options(vox_warnings INTERFACE
 )
 if(VOX_SANITIZE)
   add_compile_options(-fsanitize=${VOX_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  # GCC 12 gives false alarms in the standard library when its code is instrumented.
+  target_compile_options(vox_warnings INTERFACE -Wno-maybe-uninitialized)
   add_link_options(-fsanitize=${VOX_SANITIZE})
 endif()
 if(VOX_COVERAGE)
