@@ -5,6 +5,6 @@ cd "$(dirname "$0")/.."
 preset=${1:-release}
 
 cmake/install-packages.sh cmake/packages.txt cmake/packages-test.txt
-cmake --preset "$preset" -DVOX_BUILD_TESTS=ON >/dev/null
+cmake --preset "$preset" -DVOX_BUILD_TESTS=ON -DVOX_BUILD_BENCHMARKS=ON >/dev/null
 cmake --build --preset "$preset"
 ctest --preset "$preset"

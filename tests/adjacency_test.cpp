@@ -1,5 +1,6 @@
 #include "libvox/mesh/adjacency.h"
 
+#include "libvox/core/threads.h"
 #include "tests/shapes.h"
 
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
@@ -121,5 +122,5 @@ TEST_CASE("edges of three faces or of equal direction separate their faces", "[m
 TEST_CASE("adjacency does not depend on the number of threads", "[mesh][parallel]") {
   const PolygonMesh mesh = test::shuffled(test::torusGrid(150, 100), 1);
   const auto build = [&] { return buildAdjacency(mesh).twin; };
-  CHECK(test::onThreads(1, build) == test::onThreads(8, build));
+  CHECK(onThreads(1, build) == onThreads(8, build));
 }

@@ -43,7 +43,7 @@ TEST_CASE("what a signal handler does leaves nothing behind", "[io]") {
   AtomicFile file(folder / "out", false);
   file.stream() << "half";
   CHECK(folder.fileCount() == 1);
-  removePartialFile();
+  removePartialFiles();
   CHECK(folder.fileCount() == 0);
 }
 
@@ -73,4 +73,47 @@ TEST_CASE("targets that cannot be files are refused by name", "[io][error]") {
   CHECK_THROWS_WITH(requireWritable(folder / "none/out", false), Contains("does not exist"));
   CHECK_THROWS_WITH(requireWritable(folder.path(), true), Contains("not a regular file"));
   CHECK_THROWS_WITH(requireWritable("/dev/null", true), Contains("not a regular file"));
+}
+
+TEST_CASE("two files at a time do not disturb each other", "[io]") {
+  const test::TemporaryFolder folder;
+  AtomicFile second(folder / "b", false);
+  {
+    const AtomicFile first(folder / "a", false);
+    CHECK(folder.fileCount() == 2);
+  }
+  second.stream() << "content";
+  second.commit();
+  CHECK(contentOf(folder / "b") == "content");
+  CHECK(folder.fileCount() == 1);
+}
+
+TEST_CASE("a replaced file keeps its permissions", "[io]") {
+  const test::TemporaryFolder folder;
+  folder.write("out", "secret");
+  std::filesystem::permissions(folder / "out", std::filesystem::perms(0600));
+  AtomicFile file(folder / "out", true);
+  file.commit();
+  CHECK(std::filesystem::status(folder / "out").permissions() == std::filesystem::perms(0600));
+}
+
+TEST_CASE("a dangling link is written through, a loop of links is refused", "[io]") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_symlink("nowhere", folder / "link");
+  AtomicFile file(folder / "link", false);
+  file.stream() << "new";
+  file.commit();
+  CHECK(std::filesystem::is_symlink(folder / "link"));
+  CHECK(contentOf(folder / "nowhere") == "new");
+  std::filesystem::create_symlink("loop", folder / "loop");
+  CHECK_THROWS_WITH(requireWritable(folder / "loop", true), Contains("too many symbolic links"));
+}
+
+TEST_CASE("a name as long as the file system allows works", "[io]") {
+  const test::TemporaryFolder folder;
+  const std::string name(255, 'n');
+  AtomicFile file(folder / name, false);
+  file.commit();
+  CHECK(std::filesystem::exists(folder / name));
+  CHECK_THROWS_WITH(requireWritable("", false), Contains("no name"));
 }

@@ -63,9 +63,7 @@ property list uchar int vertex_indices
 end_header
 PLY
 { cat header.txt; printf '\0\0\0\0'; } >truncated.ply
-chars() { head -c "$1" /dev/urandom; }
-chars 300 >garbage.stl
-chars 300 >garbage.om
+yes 'neither a mesh nor a scene' | head -c 300 | tee garbage.stl >garbage.om
 for command in convert subdivide; do
   out=out.vdb
   more=()
@@ -113,10 +111,12 @@ expect 2 '' # no command at all
 
 # Limits, exit code 4; output, exit code 5.
 expect 4 'memory' convert "$scenes/cube.toml" -o out.vdb --dim 100000 --max-memory 256M
-expect 4 'voxel size of at least' convert "$scenes/cube.toml" -o out.vdb --voxel-size 1e-12
+printf 'v 1e6 0 0\nv 1e6 1 0\nv 1e6 0 1\nf 1 2 3\n' >far.obj
+expect 4 'voxel size of at least' convert far.obj -o out.vdb --voxel-size 2e-5
 expect 4 'memory' subdivide "$scenes/cube.toml" -o out.obj --levels 20 --max-memory 256M
 expect 5 'nowhere' convert good.obj -o nowhere/out.vdb
-expect 5 'regular' convert good.obj -o /dev/full
+mkfifo fifo.vdb
+expect 5 'regular' convert good.obj -o fifo.vdb --force
 "$vox" convert good.obj -o - --dim 8 >/dev/full 2>stderr
 [ $? -eq 5 ] || fail "a full disk behind stdout: $(cat stderr)"
 
@@ -138,7 +138,8 @@ expect 0 '' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density
 # Each scene gives the voxels it states.
 for scene in "$scenes"/*.toml; do
   stated=$(sed -n 's/^# Active voxels: //p' "$scene")
-  expect 0 "scene.vdb: $stated active voxels" convert "$scene" -o scene.vdb --force
+  expect 0 '' convert "$scene" -o scene.vdb --force
+  grep -q "scene.vdb: $stated active voxels" stderr || fail "$scene states $stated voxels: $(cat stderr)"
 done
 
 expect 0 '' info jack.vdb "$scenes/toy_jack.toml" "$scenes/sheet.toml"
@@ -158,22 +159,49 @@ PY
 expect 3 'missing.vdb' info missing.vdb
 
 for format in obj ply off; do
-  expect 0 '96 points, 98 faces' subdivide "$scenes/cube.obj" -o "cube.$format" --levels 2
+  expect 0 '96 vertices, 98 faces' subdivide "$scenes/cube.obj" -o "cube.$format" --levels 2
   expect 0 '' subdivide "cube.$format" -o again.obj --levels 0 --force
   [ $format = obj ] && cp again.obj reference.obj
   cmp -s again.obj reference.obj || fail "$format does not keep the mesh"
 done
 "$vox" subdivide "$scenes/cube.obj" -o - --levels 2 2>/dev/null | cmp -s - cube.obj || fail "OBJ on stdout"
 
-# An interrupt leaves the target as it was.
+# What needs care at the edges.
+expect 2 'out.obj: .*must end in .vdb' convert good.obj -o out.obj
+cp "$scenes/cube.obj" cube2.obj
+ln -s cube2.obj same.obj
+expect 2 'is the input' subdivide cube2.obj -o same.obj --levels 1 --force
+expect 2 'unknown option --ouput; did you mean --output' convert good.obj --ouput x.vdb
+expect 2 'positive' convert good.obj -o out.vdb --voxel-size inf
+expect 4 'OpenVDB.s range' convert good.obj -o out.vdb --voxel-size 1e-6
+printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' >point.obj
+expect 3 'coincide' convert point.obj -o out.vdb
+expect 3 'new.line.toml: no such file' convert $'new\nline.toml' -o out.vdb
+printf '[[object]]\nname = "a\\nvox: error: fake"\nmesh = "%s/cube.obj"\n' "$scenes" >name.toml
+expect 0 '' convert name.toml -o name.vdb --dim 8 --verbose
+grep -q '^vox: error' stderr && fail "an object's name forges a message"
+cp good.obj $'caf\xe9.obj'
+expect 0 '' info --json $'caf\xe9.obj'
+"$vox" info good.obj >/dev/full 2>stderr
+[ $? -eq 5 ] || fail "info on a full stdout"
+"$vox" --help >/dev/full 2>stderr
+[ $? -eq 5 ] || fail "help on a full stdout"
+(
+  ulimit -f 20
+  "$vox" convert "$scenes/toy_jack.toml" -o limited.vdb 2>stderr
+  [ $? -eq 5 ]
+) || fail "a file size limit: $(cat stderr)"
+[ ! -e limited.vdb ] || fail "a file size limit leaves a file"
+
+# A signal leaves the target as it was. (Background jobs of a script ignore SIGINT.)
 echo old >kept.vdb
-"$vox" convert "$scenes/toy_jack.toml" -o kept.vdb --force --dim 1500 2>/dev/null &
-sleep 0.3
-kill -INT $! 2>/dev/null
+"$vox" convert "$scenes/toy_jack.toml" -o kept.vdb --force --dim 1500 2>stderr &
+sleep 0.2
+kill -TERM $!
 wait $!
-code=$?
-{ [ $code -eq 130 ] && [ "$(cat kept.vdb)" = old ]; } || [ $code -eq 0 ] || fail "interrupt: exit code $code"
-[ -z "$(find . -name '*.part')" ] || fail "partial file left"
+[ $? -eq 130 ] || fail "interrupt: exit code"
+[ "$(cat kept.vdb)" = old ] || fail "interrupt: the target has changed"
+[ -z "$(find . -name '.*.part')" ] || fail "partial file left"
 
 [ $failures -eq 0 ] && echo "all as documented"
 exit $((failures > 0))

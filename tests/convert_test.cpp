@@ -167,18 +167,17 @@ TEST_CASE("two runs, and any number of threads, give the same bytes", "[pipeline
   options.grids = std::vector{GridKind::kDensity, GridKind::kMask};
   const std::string first = bytesOf(convert(scene, options));
   for (const int threads : {1, 2, 8}) {
-    options.threads = threads;
+    options.run.threads = threads;
     CHECK(bytesOf(convert(scene, options)) == first);
   }
 }
 
 TEST_CASE("a conversion that cannot fit is refused before it starts", "[pipeline][error]") {
   ConvertOptions options = maskAt(100000);
-  options.maxMemory = std::uint64_t{1} << 28;
+  options.run.maxMemory = std::uint64_t{1} << 28;
   CHECK_THROWS_AS(convert(sceneOf(test::cube()), options), LimitError);
   CHECK_THROWS_WITH(convert(sceneOf(test::cube()), options),
-                    Contains("limit is 256.0 MiB") && Contains("times as large"));
-  CHECK_THROWS_AS(refine(sceneOf(test::cube()), 25, options), LimitError);
+                    Contains("limit is 256.0 MiB") && Contains("--voxel-size"));
 }
 
 TEST_CASE("impossible requests are refused", "[pipeline][error]") {
@@ -187,20 +186,51 @@ TEST_CASE("impossible requests are refused", "[pipeline][error]") {
   ConvertOptions fine;
   fine.voxelSize = 1e-12;
   CHECK_THROWS_AS(convert(sceneOf(test::cube()), fine), LimitError);
-  CHECK_THROWS_AS(refine(sceneOf(test::cube()), -1, {}), UsageError);
 }
 
-TEST_CASE("refining a scene joins its objects into one mesh", "[pipeline]") {
-  Scene scene = sceneOf(test::cube());
-  scene.objects.push_back({"more", test::tetrahedron()});
-  const PolygonMesh mesh = refine(scene, 1, {});
-  CHECK(mesh.pointCount() == 24 + 12);
-  CHECK(mesh.faceCount() == 26 + 14);
-  CHECK(mesh.face(26)[0] == 24);
-  CHECK(refine(scene, 0, {}).points == [] {
-    auto points = test::cube().points;
-    const auto more = test::tetrahedron().points;
-    points.insert(points.end(), more.begin(), more.end());
-    return points;
-  }());
+TEST_CASE("a small mesh scattered over much space is refused before it fills the memory",
+          "[pipeline][error]") {
+  PolygonMesh scattered;
+  for (Index i = 0; i < 2000; ++i) {
+    const Vec3d at = 1e5 * Vec3d(i % 13, i % 17, i % 29);
+    for (const Vec3d& corner : {Vec3d(0, 0, 0), Vec3d(0.4, 0, 0), Vec3d(0, 0.4, 0)})
+      scattered.points.push_back(at + corner);
+    scattered.addFace(std::vector<Index>{3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  ConvertOptions options;
+  options.voxelSize = 1;
+  options.run.maxMemory = std::uint64_t{1} << 26;
+  CHECK_THROWS_WITH(convert(sceneOf(scattered), options), Contains("scattered"));
+}
+
+TEST_CASE("the resolution that a refusal advises works", "[pipeline][error]") {
+  for (const auto& shape : test::shapes()) {
+    CAPTURE(shape.name);
+    ConvertOptions options = maskAt(4000);
+    options.run.maxMemory = std::uint64_t{1} << 23;
+    try {
+      convert(sceneOf(shape.mesh), options);
+      FAIL("fits");
+    } catch (const LimitError& error) {
+      const std::string message = error.what();
+      CAPTURE(message);
+      const std::string key = "--dim ";
+      options.dim = std::stoi(message.substr(message.find(key) + key.size()));
+      CHECK(*options.dim > 20);
+      CHECK_NOTHROW(convert(sceneOf(shape.mesh), options));
+    }
+  }
+}
+
+TEST_CASE("an open mesh is converted with a warning", "[pipeline]") {
+  CHECK(convert(sceneOf(test::cube()), maskAt(8)).report.warnings.empty());
+  const auto warnings = convert(sceneOf(test::sheet(3, 3)), maskAt(8)).report.warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("object is open: it has 1 boundary loop"));
+}
+
+TEST_CASE("contradictory arrays are refused, not followed", "[pipeline][error]") {
+  PolygonMesh mesh = test::cube();
+  mesh.faceVertices[5] = 50000000;
+  CHECK_THROWS_AS(convert(sceneOf(mesh), maskAt(8)), MeshError);
 }

@@ -1,6 +1,7 @@
 #include "libvox/subdivide/doo_sabin.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/threads.h"
 #include "libvox/mesh/validate.h"
 #include "tests/reference.h"
 #include "tests/shapes.h"
@@ -9,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <numbers>
 
 using namespace vox;
 
@@ -38,17 +40,29 @@ Eigen::Vector3d quadraticBasis(double t) {
 }  // namespace
 
 TEST_CASE("quad weights are 9/16, 3/16, 1/16, 3/16", "[subdivide][golden]") {
-  CHECK(dooSabinWeight(0, 4) == Approx(9.0 / 16));
-  CHECK(dooSabinWeight(1, 4) == Approx(3.0 / 16));
-  CHECK(dooSabinWeight(2, 4) == Approx(1.0 / 16));
-  CHECK(dooSabinWeight(-1, 4) == Approx(3.0 / 16));
+  PolygonMesh quad = test::regularPolygon(4);
+  for (Vec3d& p : quad.points) p.setZero();
+  quad.points[0].x() = 1;  // the weights of corner 0
+  const auto image = imageVertices(quad);
+  CHECK(image[0].x() == 9.0 / 16);
+  CHECK(image[1].x() == 3.0 / 16);
+  CHECK(image[2].x() == 1.0 / 16);
+  CHECK(image[3].x() == 3.0 / 16);
 }
 
-TEST_CASE("weights of a face sum to one", "[subdivide][property]") {
+TEST_CASE("weights of a face are those of the paper and sum to one", "[subdivide][property]") {
   for (int n = 3; n < 40; ++n) {
-    double sum = 0;
-    for (int i = 0; i < n; ++i) sum += dooSabinWeight(i, n);
-    CHECK(sum == Approx(1).epsilon(1e-14));
+    CAPTURE(n);
+    PolygonMesh polygon = test::regularPolygon(n);
+    for (Vec3d& p : polygon.points) p = Vec3d(0, 1, 0);
+    polygon.points[0].x() = 1;
+    const auto image = imageVertices(polygon);
+    for (int i = 0; i < n; ++i) {
+      const double cosine = std::cos(2 * std::numbers::pi * i / n);
+      const double weight = i == 0 ? (n + 5) / (4.0 * n) : (3 + 2 * cosine) / (4.0 * n);
+      CHECK(image[static_cast<std::size_t>(i)].x() == Approx(weight).margin(1e-15));
+      CHECK(image[static_cast<std::size_t>(i)].y() == Approx(1).margin(1e-15));
+    }
   }
 }
 
@@ -203,8 +217,8 @@ TEST_CASE("a regular grid tends to the tensor-product quadratic B-spline",
 TEST_CASE("levels do not depend on the number of threads", "[subdivide][parallel]") {
   const auto mesh = test::shuffled(test::torusGrid(40, 30), 3);
   const auto run = [&] { return subdivide(baseLevel(mesh), 3); };
-  const auto one = test::onThreads(1, run);
-  const auto eight = test::onThreads(8, run);
+  const auto one = onThreads(1, run);
+  const auto eight = onThreads(8, run);
   CHECK(one.mesh.points == eight.mesh.points);
   CHECK(one.mesh.faceVertices == eight.mesh.faceVertices);
   CHECK(one.mesh.faceOffsets == eight.mesh.faceOffsets);

@@ -79,6 +79,17 @@ const Polygons kOneTriangle = {{0, 1, 2}};
 
 }  // namespace
 
+// --- Text in general ---------------------------------------------------------------------------
+
+TEST_CASE("infinities and NaNs of every spelling are refused", "[io][error]") {
+  for (const std::string bad : {"nan", "inf", "-inf", "1.#INF", "-1.#IND", "1.#QNAN", "1e999"}) {
+    CAPTURE(bad);
+    CHECK_THROWS_AS(readText(".obj", "v 0 0 " + bad + "\n" + kTriangle + "f 1 2 3\n"), InputError);
+    CHECK_THROWS_AS(readText(".off", "OFF 3 1 0\n0 0 " + bad + "\n1 0 0\n0 1 0\n3 0 1 2\n"),
+                    InputError);
+  }
+}
+
 // --- Files -------------------------------------------------------------------------------------
 
 TEST_CASE("the extension names the format whatever its case", "[io]") {

@@ -103,6 +103,11 @@ TEST_CASE("what a scene gets wrong is named with line and column", "[scene][erro
   checkRefused("[[object]]\npoints = [[0, 0, 1]]\nfaces = [[0, 0]]\n", ":3:10:", "3 corners");
   checkRefused(object + "transform = { scale = 0 }", ":4:23:", "scale must not be 0");
   checkRefused("[convert\n", ":1:9:", "");
+  checkRefused("[[object]]\nmesh = \"a.obj\\u0000.obj\"\n", ":2:8:", "NUL");
+  std::string deep = "a";
+  for (int i = 0; i < 100000; ++i) deep += ".a";
+  checkRefused(deep + " = 1\n", ":1:1:", "nested too deeply");
+  checkRefused("# deep\n[" + deep + "]\n", ":2:1:", "nested too deeply");
   checkRefused("", ":", "empty");
   checkRefused("[convert]\n", ":", "no [[object]]");
 }

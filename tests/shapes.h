@@ -2,9 +2,6 @@
 
 #include "libvox/mesh/polygon_mesh.h"
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -43,14 +40,5 @@ Vec3d faceCentroid(const PolygonMesh& mesh, Index f);
 
 /// Corner-wise equality up to `tolerance` after sorting; for clouds whose points stand apart.
 bool samePoints(std::vector<Vec3d> a, std::vector<Vec3d> b, double tolerance);
-
-/// Runs work on exactly n threads: on a small machine neither the control nor the arena is enough.
-template <class Work>
-auto onThreads(int n, Work&& work) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(n));
-  tbb::task_arena arena(n);
-  return arena.execute(work);
-}
 
 }  // namespace vox::test

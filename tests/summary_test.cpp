@@ -75,3 +75,21 @@ TEST_CASE("files that are not OpenVDB are refused", "[inspect][error]") {
   CHECK_THROWS_AS(summarizeVdb(folder.write("empty.vdb", "")), InputError);
   CHECK_THROWS_AS(summarizeVdb(folder.write("text.vdb", "not a grid, not at all")), InputError);
 }
+
+TEST_CASE("a damaged file of ours is recognised by its hash", "[inspect][error]") {
+  const test::TemporaryFolder folder;
+  Scene scene;
+  scene.objects.push_back({"cube", test::cube()});
+  ConvertOptions options;
+  options.dim = 20;
+  writeGrids(folder / "cube.vdb", convert(scene, options), false);
+  const std::string good = test::contentOf(folder / "cube.vdb");
+  REQUIRE_NOTHROW(summarizeVdb(folder / "cube.vdb"));
+  for (std::size_t at = 60; at < good.size(); at += good.size() / 40) {
+    CAPTURE(at);
+    std::string flipped = good;
+    flipped[at] = static_cast<char>(flipped[at] ^ 4);
+    CHECK_THROWS_AS(summarizeVdb(folder.write("flipped.vdb", flipped)), InputError);
+    CHECK_THROWS_AS(summarizeVdb(folder.write("cut.vdb", good.substr(0, at))), InputError);
+  }
+}

@@ -35,17 +35,17 @@ TEST_CASE("sound meshes have no defects and pass", "[mesh]") {
 TEST_CASE("a bow tie is named and passes", "[mesh]") {
   const auto defects = defectsOf(test::bowTie());
   REQUIRE(defects.size() == 1);
-  CHECK(defects[0].kind == DefectKind::kBowTiePoint);
-  CHECK(defects[0].message == "point 0 joins 2 fans of faces");
+  CHECK(defects[0].kind == DefectKind::kBowTieVertex);
+  CHECK(defects[0].message == "vertex 0 joins 2 fans of faces");
   CHECK_NOTHROW(require(test::bowTie()));
 }
 
-TEST_CASE("an unused point is named and passes", "[mesh]") {
+TEST_CASE("an unused vertex is named and passes", "[mesh]") {
   PolygonMesh mesh = test::cube();
   mesh.points.emplace_back(9, 9, 9);
   const auto defects = defectsOf(mesh);
   REQUIRE(defects.size() == 1);
-  CHECK(defects[0].message == "point 8 belongs to no face");
+  CHECK(defects[0].message == "vertex 8 belongs to no face");
   CHECK_NOTHROW(require(mesh));
 }
 
@@ -60,15 +60,15 @@ TEST_CASE("a flipped face is refused by number", "[mesh][error]") {
   CHECK_THROWS_WITH(require(mesh), Contains("and 2 run through edge") && Contains("3 more"));
 }
 
-TEST_CASE("an edge of three faces is refused by its points", "[mesh][error]") {
+TEST_CASE("an edge of three faces is refused by its vertices", "[mesh][error]") {
   const PolygonMesh fan = test::meshOf({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
                                        {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
   CHECK_THROWS_WITH(require(fan), Contains("edge (0, 1) has 3 faces: 0, 1"));
 }
 
-TEST_CASE("a repeated corner is refused by face and point", "[mesh][error]") {
+TEST_CASE("a repeated corner is refused by face and vertex", "[mesh][error]") {
   const PolygonMesh mesh = test::meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1, 2}});
-  CHECK_THROWS_WITH(require(mesh), Contains("face 0 has point 1 at more than one corner"));
+  CHECK_THROWS_WITH(require(mesh), Contains("face 0 has vertex 1 at more than one corner"));
 }
 
 TEST_CASE("only the first defects of a kind are spelt out, all are counted", "[mesh]") {
@@ -83,7 +83,7 @@ TEST_CASE("only the first defects of a kind are spelt out, all are counted", "[m
 TEST_CASE("arrays that contradict themselves are refused by element", "[mesh][error]") {
   PolygonMesh range = test::cube();
   range.faceVertices[7] = 8;
-  CHECK_THROWS_WITH(requireValidArrays(range), Contains("face 1 names point 8 of 8"));
+  CHECK_THROWS_WITH(requireValidArrays(range), Contains("face 1 names vertex 8 of 8"));
 
   PolygonMesh digon = test::cube();
   digon.faceOffsets[1] = 2;
@@ -95,5 +95,5 @@ TEST_CASE("arrays that contradict themselves are refused by element", "[mesh][er
 
   PolygonMesh nan = test::cube();
   nan.points[3].y() = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH(requireValidArrays(nan), Contains("point 3"));
+  CHECK_THROWS_WITH(requireValidArrays(nan), Contains("vertex 3"));
 }

@@ -1,5 +1,6 @@
 #include "libvox/voxelize/vertex.h"
 
+#include "libvox/core/threads.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "tests/reference.h"
 #include "tests/shapes.h"
@@ -7,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -88,6 +90,62 @@ TEST_CASE("rounding keeps the corners of a face of span one within a unit cube",
   }
 }
 
+TEST_CASE(
+    "a grid line that crosses a triangle of L-inf edges up to one voxel meets one of its voxels",
+    "[voxelize][property]") {
+  // The paper's lemma (section 5), for the L-inf norm, in integers of 1/16 voxel: exact, ties too.
+  constexpr long kUnit = 16;
+  std::mt19937 random(5);
+  std::uniform_int_distribution<long> anywhere(-3 * kUnit, 3 * kUnit);
+  std::uniform_int_distribution<long> step(-kUnit, kUnit);
+  const auto roundHalfUp = [](long x) {
+    const long shifted = x + kUnit / 2;
+    return shifted / kUnit - (shifted % kUnit < 0);
+  };
+  std::size_t crossings = 0;
+  for (int i = 0; i < 1000000; ++i) {
+    // Two coordinates across the grid line; the third does not matter to the lemma.
+    std::array<std::array<long, 2>, 3> t;
+    for (auto& x : t[0]) x = anywhere(random);
+    for (std::size_t k : {0U, 1U}) {
+      t[1][k] = t[0][k] + step(random);
+      t[2][k] = t[0][k] + step(random);
+    }
+    if (std::abs(t[1][0] - t[2][0]) > kUnit || std::abs(t[1][1] - t[2][1]) > kUnit) continue;
+    const auto side = [&](const auto& a, const auto& b, long x, long y) {
+      return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+    };
+    for (long x = -4; x <= 4; ++x)
+      for (long y = -4; y <= 4; ++y) {
+        const long a = side(t[0], t[1], x * kUnit, y * kUnit);
+        const long b = side(t[1], t[2], x * kUnit, y * kUnit);
+        const long c = side(t[2], t[0], x * kUnit, y * kUnit);
+        if (!((a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0))) continue;
+        ++crossings;
+        const bool met = std::any_of(t.begin(), t.end(), [&](const auto& p) {
+          return roundHalfUp(p[0]) == x && roundHalfUp(p[1]) == y;
+        });
+        if (!met) FAIL("triangle " << i << " covers (" << x << ", " << y << ") unseen");
+      }
+  }
+  CHECK(crossings > 50000);
+}
+
+TEST_CASE("the footprint counts the nodes that marking makes", "[voxelize]") {
+  std::mt19937 random(6);
+  std::normal_distribution<double> coordinate(0, 3000);
+  std::vector<Vec3d> points;
+  for (int i = 0; i < 20000; ++i)
+    points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+  const TreeFootprint footprint = footprintOf(points);
+  openvdb::MaskGrid mask;
+  markVertices(points, mask);
+  const auto nodes = mask.tree().nodeCount();
+  CHECK(footprint.leaves == nodes[0]);
+  CHECK(footprint.lowerNodes == nodes[1]);
+  CHECK(footprint.upperNodes == nodes[2]);
+}
+
 TEST_CASE("marking does not depend on the number of threads", "[voxelize][parallel]") {
   std::mt19937 random(3);
   std::normal_distribution<double> coordinate(0, 60);
@@ -99,8 +157,8 @@ TEST_CASE("marking does not depend on the number of threads", "[voxelize][parall
     markVertices(points, mask);
     return mask.treePtr();
   };
-  const auto one = test::onThreads(1, mark);
-  const auto eight = test::onThreads(8, mark);
+  const auto one = onThreads(1, mark);
+  const auto eight = onThreads(8, mark);
   CHECK(one->hasSameTopology(*eight));
   for (const Vec3d& p : points) CHECK(one->isValueOn(voxelOf(p)));
 }

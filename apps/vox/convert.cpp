@@ -5,10 +5,8 @@
 #include "apps/vox/command.h"
 #include "apps/vox/options.h"
 #include "libvox/core/error.h"
-#include "libvox/io/atomic_file.h"
-#include "libvox/io/scene_file.h"
+#include "libvox/io/input_file.h"
 
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -20,48 +18,53 @@ struct Options {
   std::string input;
   std::string output;
   ResolutionOptions resolution;
-  std::vector<std::string> grids;
-  RunOptions run;
+  std::string grids;
+  CommonOptions common;
 };
 
-void printObjects(const ConvertReport& report) {
-  for (const ObjectReport& object : report.objects)
-    std::fprintf(stderr, "  %s: %llu faces, %d levels, %llu vertices, largest face %.3f voxels\n",
-                 object.name.c_str(), static_cast<unsigned long long>(object.inputFaces),
-                 object.levels, static_cast<unsigned long long>(object.vertices),
-                 object.largestSpan);
-  std::fprintf(stderr, "  subdivide %.3f s, voxelize %.3f s\n", report.subdivideSeconds,
-               report.voxelizeSeconds);
+void printReport(const Options& options, const ConvertReport& report) {
+  for (const std::string& warning : report.warnings) say(options.common, "warning: " + warning);
+  std::ostringstream line;
+  line << options.output << ": " << report.activeVoxels << " active voxels of size "
+       << report.voxelSize;
+  say(options.common, line.str());
+  if (!options.common.verbose) return;
+  for (const ObjectReport& object : report.objects) {
+    std::ostringstream text;
+    text << object.name << ": " << object.inputFaces << " faces, " << object.levels << " levels, "
+         << object.vertices << " vertices, largest face " << object.largestSpan << " voxels";
+    say(options.common, text.str());
+  }
+  std::ostringstream times;
+  times << "subdivide " << report.subdivideSeconds << " s, voxelize " << report.voxelizeSeconds
+        << " s";
+  say(options.common, times.str());
 }
 
 void write(const Options& options, const Conversion& conversion) {
   if (!isStdout(options.output)) {
-    writeGrids(options.output, conversion, options.run.force);
+    writeGrids(options.output, conversion, options.common.force);
     return;
   }
   std::stringstream bytes(std::ios::in | std::ios::out | std::ios::binary);
   writeGrids(bytes, conversion);
-  std::cout << bytes.view() << std::flush;
-  if (!std::cout) throw IoError("standard output cannot be written");
+  std::cout << bytes.view();
 }
 
 int run(const Options& options) {
-  if (!isStdout(options.output)) requireWritable(options.output, options.run.force);
+  if (!isStdout(options.output) && lowerExtension(options.output) != ".vdb")
+    throw UsageError(options.output + ": the output of vox convert must end in .vdb");
   ConvertOptions convertOptions;
   convertOptions.dim = options.resolution.dim;
   convertOptions.voxelSize = options.resolution.voxelSize;
+  convertOptions.run = options.common.run;
   if (!options.grids.empty()) convertOptions.grids = parseGrids(options.grids);
-  convertOptions.maxMemory = options.run.maxMemory;
-  convertOptions.threads = options.run.threads;
 
-  const Conversion conversion = convert(readScene(options.input), convertOptions);
+  const Scene scene = readScene(options.input);
+  requireOutput(options.output, options.common, scene);
+  const Conversion conversion = convert(scene, convertOptions);
   write(options, conversion);
-
-  const ConvertReport& report = conversion.report;
-  if (options.run.quiet) return 0;
-  std::fprintf(stderr, "vox: %s: %llu active voxels of size %g\n", options.output.c_str(),
-               static_cast<unsigned long long>(report.activeVoxels), report.voxelSize);
-  if (options.run.verbose) printObjects(report);
+  printReport(options, conversion.report);
   return 0;
 }
 
@@ -75,16 +78,16 @@ Action addConvert(CLI::App& app) {
       ->required();
   command->add_option("-o,--output", options->output, "OpenVDB file to write; - for stdout")
       ->required()
-      ->type_name("OUT.vdb");
+      ->type_name("OUT.vdb")
+      ->group("Output");
   addResolutionOptions(*command, options->resolution);
   command
-      ->add_option("--grids", options->grids,
-                   "Grids to write: " + allGridNames() + " (default: the scene's, or density)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
+      ->add_option(
+          "--grids", options->grids,
+          "Grids to write, with commas: " + allGridNames() + " (default: the scene's, or density)")
       ->type_name("LIST")
       ->group("Output");
-  addRunOptions(*command, options->run);
+  addCommonOptions(*command, options->common);
   return [options] { return run(*options); };
 }
 

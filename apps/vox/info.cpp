@@ -37,7 +37,7 @@ Json histogramJson(const std::map<std::uint64_t, std::uint64_t>& histogram) {
 Json toJson(const std::string& name, const MeshSummary& mesh) {
   const auto vector = [](const Vec3d& v) { return Json{v.x(), v.y(), v.z()}; };
   Json json = {{"name", name},
-               {"points", mesh.points},
+               {"vertices", mesh.points},
                {"edges", mesh.edges},
                {"faces", mesh.faces},
                {"components", mesh.components},
@@ -74,7 +74,7 @@ std::string histogramText(const std::map<std::uint64_t, std::uint64_t>& histogra
 }
 
 void print(const std::string& name, const MeshSummary& mesh) {
-  std::cout << "  mesh " << name << ": " << mesh.points << " points, " << mesh.edges << " edges, "
+  std::cout << "  mesh " << name << ": " << mesh.points << " vertices, " << mesh.edges << " edges, "
             << mesh.faces << " faces, " << mesh.components
             << (mesh.components == 1 ? " component" : " components") << ", Euler characteristic "
             << mesh.eulerCharacteristic << '\n';
@@ -132,7 +132,7 @@ Json describe(const std::string& file, bool json) {
 int run(const Options& options) {
   Json all = Json::array();
   for (const std::string& file : options.files) all.push_back(describe(file, options.json));
-  if (options.json) std::cout << all.dump(2) << '\n';
+  if (options.json) std::cout << all.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   return 0;
 }
 

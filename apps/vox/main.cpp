@@ -25,14 +25,21 @@ constexpr int kInterrupted = 130;
 
 /// Leaves no partial file behind, then ends the process.
 extern "C" void onInterrupt(int) {
-  removePartialFile();
+  removePartialFiles();
   constexpr char kMessage[] = "\nvox: interrupted\n";
   if (::write(STDERR_FILENO, kMessage, sizeof kMessage - 1) < 0) _exit(kInterrupted);
   _exit(kInterrupted);
 }
 
+/// A signal that the caller chose to ignore (nohup) stays ignored.
+void handleSignals() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(number, onInterrupt) == SIG_IGN) std::signal(number, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of the write
+}
+
 int fail(const std::string& message, int code) {
-  std::cerr << "vox: error: " << message << '\n';
+  std::cerr << "vox: error: " << onOneLine(message) << '\n';
   return code;
 }
 
@@ -77,8 +84,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   app.footer(
-      "Exit codes: 0 success, 1 a comparison says no, 2 usage, 3 bad input,\n"
-      "4 cannot be done within limits, 5 output cannot be written, 130 interrupted.");
+      "Exit codes: 0 success, 2 usage, 3 bad input, 4 cannot be done within limits,\n"
+      "5 output cannot be written, 70 internal error, 130 interrupted.");
   const std::vector<std::pair<const char*, Action>> actions = {
       {"convert", addConvert(app)}, {"subdivide", addSubdivide(app)}, {"info", addInfo(app)}};
 
@@ -86,12 +93,10 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {
     return app.exit(asked);  // --help, --version
-  } catch (const CLI::ExtrasError&) {
-    return fail(explainExtras(app), kUsage);
   } catch (const CLI::ParseError& error) {
-    const auto extras = app.remaining(/*recurse=*/true);
-    if (app.get_subcommands().empty() && !extras.empty()) return fail(explainExtras(app), kUsage);
-    return fail(error.what(), kUsage);
+    // A mistyped option is the likelier cause of one that is missing.
+    const bool extras = !app.remaining(/*recurse=*/true).empty();
+    return fail(extras ? explainExtras(app) : error.what(), kUsage);
   }
   for (const auto& [name, action] : actions)
     if (app.got_subcommand(name)) return action();
@@ -103,11 +108,11 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace vox::app;
-  std::signal(SIGINT, onInterrupt);
-  std::signal(SIGTERM, onInterrupt);
-  std::signal(SIGHUP, onInterrupt);
+  handleSignals();
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    if (!std::cout.flush()) return fail("standard output cannot be written", kIo);
+    return code;
   } catch (const vox::Error& error) {
     return fail(error.what(), error.exitCode());
   } catch (const std::bad_alloc&) {

@@ -3,10 +3,17 @@
 #include "apps/vox/options.h"
 
 #include "libvox/core/error.h"
+#include "libvox/io/atomic_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
+#include <iostream>
 #include <limits>
+#include <sstream>
+#include <string_view>
+#include <system_error>
 
 namespace vox::app {
 namespace {
@@ -36,21 +43,23 @@ std::uint64_t parseBytes(const std::string& text) {
 
 }  // namespace
 
-void addRunOptions(CLI::App& command, RunOptions& run) {
+void addCommonOptions(CLI::App& command, CommonOptions& common) {
   constexpr int kMostThreads = 1024;
-  command.add_option("--threads", run.threads, "Threads to use (default: all processors)")
+  command.add_option("--threads", common.run.threads, "Threads to use (default: all processors)")
       ->check(CLI::Range(1, kMostThreads))
       ->type_name("N")
       ->group("Run");
   command
       .add_option_function<std::string>(
-          "--max-memory", [&run](const std::string& text) { run.maxMemory = parseBytes(text); },
-          "Memory for meshes, such as 512M or 8G (default: three quarters of what is available)")
+          "--max-memory",
+          [&common](const std::string& text) { common.run.maxMemory = parseBytes(text); },
+          "Memory for meshes and grids, such as 512M or 8G (default: three quarters of what is "
+          "available)")
       ->type_name("SIZE")
       ->group("Run");
-  command.add_flag("-f,--force", run.force, "Overwrite an existing output file")->group("Run");
-  command.add_flag("-q,--quiet", run.quiet, "Print errors only")->group("Run");
-  command.add_flag("-v,--verbose", run.verbose, "Print what was done to each object, and times")
+  command.add_flag("-f,--force", common.force, "Overwrite an existing output file")->group("Run");
+  command.add_flag("-q,--quiet", common.quiet, "Print errors only")->group("Run");
+  command.add_flag("-v,--verbose", common.verbose, "Print what was done to each object, and times")
       ->group("Run");
 }
 
@@ -66,25 +75,39 @@ void addResolutionOptions(CLI::App& command, ResolutionOptions& resolution) {
       .add_option_function<double>(
           "--voxel-size", [&resolution](double size) { resolution.voxelSize = size; },
           "Edge length of a voxel in world units, instead of --dim")
-      ->check(CLI::PositiveNumber)
       ->excludes(dim)
       ->type_name("S")
       ->group("Resolution");
 }
 
-std::vector<GridKind> parseGrids(const std::vector<std::string>& names) {
+std::vector<GridKind> parseGrids(const std::string& names) {
   std::vector<GridKind> grids;
-  for (const std::string& name : names) {
+  std::istringstream list(names);
+  for (std::string name; std::getline(list, name, ',');) {
     const auto kind = gridNamed(name);
     if (!kind)
       throw UsageError("--grids: unknown grid '" + name + "'; known are " + allGridNames());
     if (std::find(grids.begin(), grids.end(), *kind) == grids.end()) grids.push_back(*kind);
   }
+  if (grids.empty()) throw UsageError("--grids names no grid; known are " + allGridNames());
   return grids;
 }
 
 bool isStdout(const std::string& file) {
   return file == "-";
+}
+
+void requireOutput(const std::string& output, const CommonOptions& common, const Scene& scene) {
+  if (isStdout(output)) return;
+  std::error_code error;
+  for (const auto& input : scene.files)
+    if (std::filesystem::equivalent(output, input, error))
+      throw UsageError(output + ": is the input " + input.string() + "; choose another name");
+  requireWritable(output, common.force);
+}
+
+void say(const CommonOptions& common, const std::string& text) {
+  if (!common.quiet) std::cerr << "vox: " << onOneLine(text) << '\n';
 }
 
 }  // namespace vox::app

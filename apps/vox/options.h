@@ -1,10 +1,11 @@
 #pragma once
 
 #include "libvox/grid/grid_kind.h"
+#include "libvox/io/scene_file.h"
+#include "libvox/pipeline/run_options.h"
 
 #include <CLI/CLI.hpp>
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,14 +13,13 @@
 namespace vox::app {
 
 /// Options that several subcommands share.
-struct RunOptions {
-  int threads = 0;
-  std::uint64_t maxMemory = 0;
+struct CommonOptions {
+  RunOptions run;
   bool force = false;
   bool quiet = false;
   bool verbose = false;
 };
-void addRunOptions(CLI::App& command, RunOptions& run);
+void addCommonOptions(CLI::App& command, CommonOptions& common);
 
 /// --dim and --voxel-size.
 struct ResolutionOptions {
@@ -30,9 +30,16 @@ void addResolutionOptions(CLI::App& command, ResolutionOptions& resolution);
 
 /// "density,mask" as grids.
 /// @throws UsageError  an unknown name
-std::vector<GridKind> parseGrids(const std::vector<std::string>& names);
+std::vector<GridKind> parseGrids(const std::string& names);
 
 /// "-": data goes to standard output.
 bool isStdout(const std::string& file);
+
+/// Checks, before the work starts, that the output can be written and is none of the inputs.
+/// @throws IoError, UsageError
+void requireOutput(const std::string& output, const CommonOptions& common, const Scene& scene);
+
+/// Prints one line on stderr, unless --quiet: "vox: TEXT".
+void say(const CommonOptions& common, const std::string& text);
 
 }  // namespace vox::app

@@ -2,13 +2,10 @@
 
 #include "apps/vox/command.h"
 #include "apps/vox/options.h"
-#include "libvox/core/error.h"
 #include "libvox/io/atomic_file.h"
-#include "libvox/io/scene_file.h"
 #include "libvox/io/write_mesh.h"
-#include "libvox/pipeline/convert.h"
+#include "libvox/pipeline/refine.h"
 
-#include <cstdio>
 #include <iostream>
 #include <memory>
 
@@ -19,34 +16,27 @@ struct Options {
   std::string input;
   std::string output;
   int levels = 0;
-  RunOptions run;
+  CommonOptions common;
 };
 
 void write(const Options& options, const PolygonMesh& mesh) {
   if (isStdout(options.output)) {
     writeMesh(std::cout, mesh, MeshFormat::kObj);
-    std::cout.flush();
-    if (!std::cout) throw IoError("standard output cannot be written");
     return;
   }
-  AtomicFile output(options.output, options.run.force);
+  AtomicFile output(options.output, options.common.force);
   writeMesh(output.stream(), mesh, meshFormatFor(options.output));
   output.commit();
 }
 
 int run(const Options& options) {
-  if (!isStdout(options.output)) {
-    meshFormatFor(options.output);
-    requireWritable(options.output, options.run.force);
-  }
-  ConvertOptions convertOptions;
-  convertOptions.maxMemory = options.run.maxMemory;
-  convertOptions.threads = options.run.threads;
-  const PolygonMesh mesh = refine(readScene(options.input), options.levels, convertOptions);
+  if (!isStdout(options.output)) meshFormatFor(options.output);
+  const Scene scene = readScene(options.input);
+  requireOutput(options.output, options.common, scene);
+  const PolygonMesh mesh = refine(scene, options.levels, options.common.run);
   write(options, mesh);
-  if (!options.run.quiet)
-    std::fprintf(stderr, "vox: %s: %u points, %u faces\n", options.output.c_str(),
-                 mesh.pointCount(), mesh.faceCount());
+  say(options.common, options.output + ": " + std::to_string(mesh.pointCount()) + " vertices, " +
+                          std::to_string(mesh.faceCount()) + " faces");
   return 0;
 }
 
@@ -61,14 +51,16 @@ Action addSubdivide(CLI::App& app) {
       ->add_option("-o,--output", options->output,
                    "Mesh file to write: .obj, .ply or .off; - for OBJ on stdout")
       ->required()
-      ->type_name("OUT");
+      ->type_name("OUT")
+      ->group("Output");
   constexpr int kMostLevels = 30;
   command
       ->add_option("--levels", options->levels, "Doo-Sabin steps; 0 writes the mesh as it was read")
       ->required()
       ->check(CLI::Range(0, kMostLevels))
-      ->type_name("K");
-  addRunOptions(*command, options->run);
+      ->type_name("K")
+      ->group("Output");
+  addCommonOptions(*command, options->common);
   return [options] { return run(*options); };
 }
 

@@ -2,12 +2,8 @@
 
 #include "libvox/core/hash.h"
 
-#include "libvox/core/error.h"
-
 #define XXH_INLINE_ALL
-#include <array>
-#include <fstream>
-#include <vector>
+#include <string>
 #include <xxhash.h>
 
 namespace vox {
@@ -25,6 +21,12 @@ void ContentHash::add(std::span<const char> bytes) {
   XXH3_128bits_update(&state_->xxh, bytes.data(), bytes.size());
 }
 
+void ContentHash::addFile(std::string_view content) {
+  const std::string length = std::to_string(content.size()) + "\n";
+  add(length);
+  add(content);
+}
+
 std::string ContentHash::hex() const {
   XXH128_canonical_t bytes;
   XXH128_canonicalFromHash(&bytes, XXH3_128bits_digest(&state_->xxh));
@@ -35,18 +37,6 @@ std::string ContentHash::hex() const {
     text += kDigits[byte & 15];
   }
   return text;
-}
-
-std::string hashOfFiles(std::span<const std::filesystem::path> files) {
-  ContentHash hash;
-  std::vector<char> buffer(1 << 20);
-  for (const auto& file : files) {
-    std::ifstream in(file, std::ios::binary);
-    while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0)
-      hash.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
-    if (!in.eof()) throw InputError(file.string() + ": cannot be read");
-  }
-  return hash.hex();
 }
 
 }  // namespace vox

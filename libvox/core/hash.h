@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace vox {
 
@@ -18,6 +18,9 @@ class ContentHash {
 
   void add(std::span<const char> bytes);
 
+  /// Adds the content of a file with its length, so that files cannot run into each other.
+  void addFile(std::string_view content);
+
   /// 32 lower-case hexadecimal digits.
   std::string hex() const;
 
@@ -25,9 +28,5 @@ class ContentHash {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// Hash of the contents of some files, one after the other.
-/// @throws InputError  a file cannot be read
-std::string hashOfFiles(std::span<const std::filesystem::path> files);
 
 }  // namespace vox

@@ -2,6 +2,8 @@
 
 #include "libvox/core/memory.h"
 
+#include "libvox/core/error.h"
+
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -37,7 +39,8 @@ std::uint64_t controlGroupMemory() {
   const std::uint64_t limit = numberIn("/sys/fs/cgroup/memory.max", "", kUnlimited);
   if (limit == kUnlimited) return kUnlimited;
   const std::uint64_t used = numberIn("/sys/fs/cgroup/memory.current", "", 0);
-  return limit - std::min(limit, used);
+  const std::uint64_t cache = numberIn("/sys/fs/cgroup/memory.stat", "file", 0);  // given back
+  return limit - std::min(limit, used - std::min(used, cache));
 }
 
 std::uint64_t addressSpace() {
@@ -62,6 +65,22 @@ std::string formatBytes(std::uint64_t bytes) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), unit == 0 ? "%.0f %s" : "%.1f %s", value, kUnits[unit]);
   return text.data();
+}
+
+MemoryBudget::MemoryBudget(std::uint64_t limit)
+    : limit_(limit != 0 ? limit : availableMemory() / 4 * 3) {}
+
+void MemoryBudget::take(std::uint64_t bytes, const std::string& what, const std::string& advice) {
+  require(bytes, what, advice);
+  taken_ += bytes;
+}
+
+void MemoryBudget::require(std::uint64_t bytes, const std::string& what,
+                           const std::string& advice) const {
+  if (bytes <= left()) return;
+  throw LimitError(what + " needs about " + formatBytes(bytes) + " of memory" +
+                   (taken_ > 0 ? " on top of " + formatBytes(taken_) : "") + ", the limit is " +
+                   formatBytes(limit_) + "; " + advice);
 }
 
 }  // namespace vox

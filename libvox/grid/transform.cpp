@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -29,13 +30,17 @@ GridTransform transformForDim(const Box& box, int dim) {
   if (dim < 1) throw UsageError("--dim must be at least 1, not " + std::to_string(dim));
   const double side = box.longestSide();
   if (!(side > 0))
-    throw UsageError("the input has no extent, so --dim cannot set a voxel size; use --voxel-size");
+    throw InputError("all vertices coincide, so --dim cannot set a voxel size; use --voxel-size");
   return transformForVoxelSize(side / dim);
 }
 
 GridTransform transformForVoxelSize(double voxelSize) {
   if (!(voxelSize > 0) || !std::isfinite(voxelSize))
     throw UsageError("--voxel-size must be a positive number, not " + str(voxelSize));
+  if (voxelSize < kMinVoxelSize || voxelSize > kMaxVoxelSize)
+    throw LimitError("a voxel size of " + str(voxelSize) + " is out of OpenVDB's range, " +
+                     str(kMinVoxelSize) + " to " + str(kMaxVoxelSize) + "; scale the model " +
+                     (voxelSize < kMinVoxelSize ? "up or use larger voxels" : "down"));
   return {voxelSize};
 }
 

@@ -29,18 +29,24 @@ struct GridTransform {
   double voxelSize = 1;  ///< world units, > 0
 
   Vec3d toIndex(const Vec3d& world) const { return world / voxelSize; }
-  Vec3d toWorld(const Vec3d& index) const { return index * voxelSize; }
 };
 
 /// Largest absolute index coordinate that may be converted: half of OpenVDB's 32-bit range, so that
-/// neighbours and filters never overflow, and a double still resolves 1e-7 voxels.
+/// neighbours and filters never overflow, and a double still resolves 2.4e-7 voxels.
 inline constexpr double kMaxIndex = 1 << 30;
 
+/// Voxel sizes that OpenVDB accepts: it refuses a transform whose determinant is below 3e-15.
+inline constexpr double kMinVoxelSize = 1.5e-5;
+inline constexpr double kMaxVoxelSize = 1e18;
+
 /// Transform with `dim` voxels along the longest side of the box.
-/// @throws UsageError  dim < 1, or the box has no extent (all points equal)
+/// @throws UsageError  dim < 1
+/// @throws InputError  the box has no extent: all points are equal
+/// @throws LimitError  the voxel size is out of range
 GridTransform transformForDim(const Box& box, int dim);
 
 /// @throws UsageError  voxelSize is not a positive finite number
+/// @throws LimitError  voxelSize is out of range
 GridTransform transformForVoxelSize(double voxelSize);
 
 /// @throws LimitError  the box reaches beyond kMaxIndex; the message names the smallest voxel size

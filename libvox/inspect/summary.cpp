@@ -4,10 +4,12 @@
 
 #include "libvox/core/error.h"
 #include "libvox/io/input_file.h"
+#include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
 
 #include <openvdb/openvdb.h>
 
+#include <fstream>
 #include <numeric>
 
 namespace vox {
@@ -36,6 +38,14 @@ void countEdges(const PolygonMesh& mesh, const Adjacency& adjacency, MeshSummary
   for (Index f = 0; f < mesh.faceCount(); ++f) summary.components += component[f] == f;
   for (const auto edges : valence)
     if (edges > 0) ++summary.valences[edges];
+}
+
+/// A file of ours names the hash of its content; OpenVDB itself trusts what it reads.
+void requireIntact(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file.string() + ": cannot be opened; check its permissions");
+  if (vdbContent(stream) == VdbContent::kDamaged)
+    throw InputError(file.string() + ": is damaged: its content does not match its hash");
 }
 
 GridSummary summarizeGrid(const openvdb::GridBase& grid) {
@@ -85,14 +95,18 @@ MeshSummary summarize(const PolygonMesh& mesh) {
 std::vector<GridSummary> summarizeVdb(const std::filesystem::path& file) {
   requireInputFile(file);
   openvdb::initialize();
+  openvdb::logging::setLevel(openvdb::logging::Level::Fatal);
+  requireIntact(file);
   std::vector<GridSummary> summaries;
   try {
     openvdb::io::File vdb(file.string());
-    vdb.open(/*delayLoad=*/false);
-    const openvdb::GridPtrVecPtr grids = vdb.getGrids();
-    for (const auto& grid : *grids) summaries.push_back(summarizeGrid(*grid));
+    vdb.open(/*delayLoad=*/true);  // counting voxels takes topology only
+    for (auto name = vdb.beginName(); name != vdb.endName(); ++name)
+      summaries.push_back(summarizeGrid(*vdb.readGrid(*name)));
   } catch (const std::exception& wrong) {
-    throw InputError(file.string() + ": cannot be read as OpenVDB: " + wrong.what());
+    constexpr std::size_t kMost = 200;  // damaged files may quote megabytes of themselves
+    throw InputError(file.string() +
+                     ": cannot be read as OpenVDB: " + std::string(wrong.what()).substr(0, kMost));
   }
   return summaries;
 }

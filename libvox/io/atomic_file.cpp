@@ -4,12 +4,15 @@
 
 #include "libvox/core/error.h"
 
+#include <sys/stat.h>
+
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <climits>
 #include <cstring>
 #include <fcntl.h>
+#include <random>
 #include <string>
 #include <unistd.h>
 
@@ -18,9 +21,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Name of the partial file for signal handlers: plain bytes, valid while the flag is set.
-std::array<char, PATH_MAX> partialName{};
-std::atomic<bool> partialExists{false};
+/// Names of partial files for signal handlers: plain bytes, valid while the state says so. A file
+/// that finds no free slot is still removed by its destructor.
+struct Slot {
+  enum State { kFree, kFilling, kUsed };
+  std::atomic<int> state{kFree};
+  std::array<char, PATH_MAX> name{};
+};
+std::array<Slot, 16> slots;
+
+void registerPartial(const fs::path& partial) {
+  for (Slot& slot : slots) {
+    int expected = Slot::kFree;
+    if (!slot.state.compare_exchange_strong(expected, Slot::kFilling)) continue;
+    std::strncpy(slot.name.data(), partial.c_str(), slot.name.size() - 1);
+    slot.state = Slot::kUsed;
+    return;
+  }
+}
+
+void unregisterPartial(const fs::path& partial) {
+  for (Slot& slot : slots)
+    if (slot.state == Slot::kUsed && partial == slot.name.data()) slot.state = Slot::kFree;
+}
 
 std::string reason() {
   return std::strerror(errno);
@@ -30,21 +53,36 @@ fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// The file a symbolic link stands for, so that the link survives the rename.
-fs::path resolved(const fs::path& target) {
+/// The file a chain of symbolic links stands for, so that the links survive the rename.
+fs::path resolved(fs::path target) {
+  constexpr int kMostLinks = 40;
   std::error_code error;
-  if (!fs::is_symlink(target, error)) return target;
-  const fs::path real = fs::weakly_canonical(target, error);
-  return error ? target : real;
+  for (int links = 0; fs::is_symlink(target, error); ++links) {
+    if (links == kMostLinks) throw IoError(target.string() + ": too many symbolic links");
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) throw IoError(target.string() + ": cannot be followed: " + error.message());
+    target = next.is_absolute() ? next : folderOf(target) / next;
+  }
+  return target;
 }
 
-void createEmpty(const fs::path& partial) {
-  const int file = ::open(partial.c_str(), O_CREAT | O_TRUNC | O_RDWR | O_CLOEXEC, 0666);
-  if (file < 0) throw IoError(partial.string() + ": cannot be created: " + reason());
-  ::close(file);
+/// Makes a new file of a name nobody can foresee.
+fs::path createPartial(const fs::path& folder) {
+  constexpr int kTries = 100;
+  std::random_device random;
+  for (int i = 0; i < kTries; ++i) {
+    const fs::path partial = folder / (".vox-" + std::to_string(random()) + ".part");
+    const int file = ::open(partial.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
+    if (file >= 0) {
+      ::close(file);
+      return partial;
+    }
+    if (errno != EEXIST) throw IoError(folder.string() + ": cannot be written: " + reason());
+  }
+  throw IoError(folder.string() + ": no free name for a partial file");
 }
 
-void sync(const fs::path& path) {
+void syncFile(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool synced = file >= 0 && (::fsync(file) == 0 || errno == EINVAL);
   const std::string why = reason();
@@ -52,51 +90,72 @@ void sync(const fs::path& path) {
   if (!synced) throw IoError(path.string() + ": cannot be synced to disk: " + why);
 }
 
+/// Makes the rename last. A folder that may be written but not read cannot be synced: never mind.
+void syncFolder(const fs::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  ::fsync(file);
+  ::close(file);
+}
+
+void keepPermissions(const fs::path& from, const fs::path& to) {
+  struct stat status {};
+  if (::stat(from.c_str(), &status) == 0) ::chmod(to.c_str(), status.st_mode & 07777);
+}
+
 }  // namespace
 
 void requireWritable(const fs::path& target, bool overwrite) {
+  if (target.empty()) throw IoError("the output file has no name");
   std::error_code error;
-  const fs::path folder = folderOf(resolved(target));
+  const fs::path real = resolved(target);
+  const fs::path folder = folderOf(real);
   if (!fs::is_directory(folder, error))
     throw IoError(target.string() + ": the folder " + folder.string() + " does not exist");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw IoError(target.string() + ": the folder " + folder.string() +
                   " cannot be written: " + reason());
-  if (!fs::exists(target, error)) return;
-  if (!fs::is_regular_file(target, error))
+  if (!real.has_filename()) throw IoError(target.string() + ": names a folder, not a file");
+  if (!fs::exists(real, error)) return;
+  if (!fs::is_regular_file(real, error))
     throw IoError(target.string() + ": exists and is not a regular file; use -o - for stdout");
   if (!overwrite) throw IoError(target.string() + ": exists; use --force to overwrite it");
 }
 
-AtomicFile::AtomicFile(const fs::path& target, bool overwrite) : target_(resolved(target)) {
+AtomicFile::AtomicFile(const fs::path& target, bool overwrite) {
   requireWritable(target, overwrite);
-  partial_ = target_;
-  partial_ += "." + std::to_string(::getpid()) + ".part";
-  if (partial_.native().size() + 1 > partialName.size())
-    throw IoError(target.string() + ": the name is too long");
-  createEmpty(partial_);
-  std::memcpy(partialName.data(), partial_.c_str(), partial_.native().size() + 1);
-  partialExists = true;
+  target_ = resolved(target);
+  partial_ = createPartial(folderOf(target_));
+  registerPartial(partial_);
   stream_.open(partial_, std::ios::in | std::ios::out | std::ios::binary);
-  if (!stream_) throw IoError(partial_.string() + ": cannot be opened: " + reason());
+  if (stream_) return;
+  const std::string why = reason();
+  ::unlink(partial_.c_str());
+  unregisterPartial(partial_);
+  throw IoError(target.string() + ": cannot be written: " + why);
 }
 
 AtomicFile::~AtomicFile() {
-  removePartialFile();
+  if (partial_.empty()) return;
+  ::unlink(partial_.c_str());
+  unregisterPartial(partial_);
 }
 
 void AtomicFile::commit() {
   stream_.close();
   if (!stream_) throw IoError(target_.string() + ": cannot be written: " + reason());
-  sync(partial_);
+  syncFile(partial_);
+  keepPermissions(target_, partial_);
   if (::rename(partial_.c_str(), target_.c_str()) != 0)
     throw IoError(target_.string() + ": cannot be renamed into place: " + reason());
-  partialExists = false;
-  sync(folderOf(target_));
+  unregisterPartial(partial_);
+  partial_.clear();
+  syncFolder(folderOf(target_));
 }
 
-void removePartialFile() noexcept {
-  if (partialExists.exchange(false)) ::unlink(partialName.data());
+void removePartialFiles() noexcept {
+  for (const Slot& slot : slots)
+    if (slot.state == Slot::kUsed) ::unlink(slot.name.data());
 }
 
 }  // namespace vox

@@ -10,9 +10,10 @@ namespace vox {
 /// @throws IoError  says which of these fails
 void requireWritable(const std::filesystem::path& target, bool overwrite);
 
-/// A file that appears under its name only when complete. Bytes go to "NAME.PID.part" in the folder
-/// of the target (of what it points to, for a symbolic link); commit() syncs and renames. Without
-/// commit() the destructor removes the partial file and the target is as it was.
+/// A file that appears under its name only when complete. Bytes go to a new file ".vox-RANDOM.part"
+/// in the folder of the target (of what it points to, for a symbolic link); commit() syncs it,
+/// gives it the permissions of the file it replaces and renames it. Without commit() the destructor
+/// removes the partial file and the target is as it was. Several may be open at a time.
 class AtomicFile {
  public:
   /// @throws IoError  see requireWritable; or the partial file cannot be made
@@ -33,7 +34,8 @@ class AtomicFile {
   std::fstream stream_;
 };
 
-/// Removes the partial file of this process, if there is one. Safe to call from a signal handler.
-void removePartialFile() noexcept;
+/// Removes the partial files of this process. Safe to call from a signal handler; the files must
+/// not be used any more.
+void removePartialFiles() noexcept;
 
 }  // namespace vox

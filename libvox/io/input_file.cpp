@@ -3,6 +3,7 @@
 #include "libvox/io/input_file.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 
 #include <cstdint>
 #include <fstream>
@@ -35,6 +36,8 @@ std::string contentsOf(const fs::path& file) {
 
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
+  if (!error && size > availableMemory())
+    throw LimitError(name + ": " + formatBytes(size) + " do not fit into memory");
   std::string contents(error ? 0 : size, '\0');
   in.read(contents.data(), static_cast<std::streamsize>(contents.size()));
   if (error || in.bad() || static_cast<std::uintmax_t>(in.gcount()) != size)

@@ -11,6 +11,7 @@ void requireInputFile(const std::filesystem::path& file);
 
 /// The whole content of a file.
 /// @throws InputError  as requireInputFile, or it cannot be read
+/// @throws LimitError  it is larger than the available memory
 std::string contentsOf(const std::filesystem::path& file);
 
 /// Extension with its dot, in lower case: ".obj".

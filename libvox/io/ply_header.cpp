@@ -1,3 +1,6 @@
+// The header of a PLY file: elements, properties, format.
+// Source: G. Turk, The PLY polygon file format, 1994.
+
 #include "libvox/io/ply_header.h"
 
 #include "libvox/core/types.h"

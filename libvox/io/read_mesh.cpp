@@ -1,3 +1,5 @@
+// Mesh files of any known format, with the checks that all share.
+
 #include "libvox/io/read_mesh.h"
 
 #include "libvox/core/error.h"
@@ -76,14 +78,21 @@ void checkFaces(const PolygonMesh& mesh, const std::string& fileName) {
 }  // namespace
 
 PolygonMesh readMesh(const fs::path& file) {
-  const std::string fileName = file.string();
   requireInputFile(file);
-  const Parser parse = parserFor(file);
-  if (!parse)
-    throw InputError(fileName + ": unknown extension " + quote(file.extension().string()) +
-                     "; a mesh is .obj, .ply, .off, .stl or .om");
+  requireMeshExtension(file);
+  return parseMesh(file, contentsOf(file));
+}
 
-  PolygonMesh mesh = parse(contentsOf(file), fileName);
+void requireMeshExtension(const fs::path& file) {
+  if (parserFor(file) == nullptr)
+    throw InputError(file.string() + ": unknown extension " + quote(file.extension().string()) +
+                     "; a mesh is .obj, .ply, .off, .stl or .om");
+}
+
+PolygonMesh parseMesh(const fs::path& file, std::string_view content) {
+  const std::string fileName = file.string();
+  requireMeshExtension(file);
+  PolygonMesh mesh = parserFor(file)(content, fileName);
   checkCounts(mesh, fileName);
   checkPoints(mesh, fileName);
   checkFaces(mesh, fileName);

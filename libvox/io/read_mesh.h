@@ -3,8 +3,7 @@
 #include "libvox/mesh/polygon_mesh.h"
 
 #include <filesystem>
-#include <span>
-#include <string>
+#include <string_view>
 
 namespace vox {
 
@@ -22,5 +21,12 @@ inline constexpr double kMaxCoordinate = 1e15;
 /// @throws InputError  the file is missing, a directory, unreadable, of unknown extension, or its
 ///   text is malformed. The message starts with "FILE:LINE: " (text) or "FILE: " (binary).
 PolygonMesh readMesh(const std::filesystem::path& file);
+
+/// The same from the content of a file; the name gives the format and stands in messages.
+PolygonMesh parseMesh(const std::filesystem::path& file, std::string_view content);
+
+/// Checks the extension alone.
+/// @throws InputError  it is none of a mesh
+void requireMeshExtension(const std::filesystem::path& file);
 
 }  // namespace vox

@@ -3,6 +3,7 @@
 #include "libvox/io/scene_file.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/hash.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/read_mesh.h"
 #include "libvox/io/text_scanner.h"
@@ -11,6 +12,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -26,6 +28,7 @@ namespace fs = std::filesystem;
 struct SceneText {
   fs::path file;
   toml::table root;
+  ContentHash hash;  ///< of this file and the meshes it names
 
   [[noreturn]] void fail(const toml::source_region& at, const std::string& what) const {
     throw InputError(file.string() + ":" + std::to_string(at.begin.line) + ":" +
@@ -35,6 +38,15 @@ struct SceneText {
     fail(at.source(), what);
   }
 };
+
+/// Reads a mesh and adds the content of its file to a hash.
+PolygonMesh readMeshInto(ContentHash& hash, const fs::path& file) {
+  requireInputFile(file);
+  requireMeshExtension(file);
+  const std::string content = contentsOf(file);
+  hash.addFile(content);
+  return parseMesh(file, content);
+}
 
 void requireKnownKeys(const SceneText& scene, const toml::table& table, const std::string& where,
                       std::initializer_list<std::string_view> known) {
@@ -60,7 +72,9 @@ const toml::array& requireArray(const SceneText& scene, const toml::node& node,
 }
 
 std::string requireString(const SceneText& scene, const toml::node& node, const std::string& name) {
-  if (const auto text = node.value_exact<std::string>()) return *text;
+  const auto text = node.value_exact<std::string>();
+  if (text && text->find('\0') != std::string::npos) scene.fail(node, name + " holds a NUL");
+  if (text) return *text;
   scene.fail(node, name + " must be a string");
 }
 
@@ -140,7 +154,12 @@ PolygonMesh readInlineMesh(const SceneText& text, const toml::node& points,
   return mesh;
 }
 
-Eigen::Affine3d readTransform(const SceneText& text, const toml::table& table) {
+struct Transform {
+  Eigen::Affine3d map;
+  bool mirrors;  ///< an odd number of negative scales; the determinant itself may underflow
+};
+
+Transform readTransform(const SceneText& text, const toml::table& table) {
   requireKnownKeys(text, table, "transform", {"scale", "rotate", "translate"});
   Vec3d scale = Vec3d::Ones();
   Vec3d degrees = Vec3d::Zero();
@@ -157,9 +176,11 @@ Eigen::Affine3d readTransform(const SceneText& text, const toml::table& table) {
     translate = requireVector(text, *node, "translate");
 
   const Vec3d radians = degrees * (std::numbers::pi / 180);
-  return Eigen::Translation3d(translate) * Eigen::AngleAxisd(radians.z(), Vec3d::UnitZ()) *
-         Eigen::AngleAxisd(radians.y(), Vec3d::UnitY()) *
-         Eigen::AngleAxisd(radians.x(), Vec3d::UnitX()) * Eigen::Scaling(scale);
+  const Eigen::Affine3d map =
+      Eigen::Translation3d(translate) * Eigen::AngleAxisd(radians.z(), Vec3d::UnitZ()) *
+      Eigen::AngleAxisd(radians.y(), Vec3d::UnitY()) *
+      Eigen::AngleAxisd(radians.x(), Vec3d::UnitX()) * Eigen::Scaling(scale);
+  return {map, (scale.array() < 0).count() % 2 == 1};
 }
 
 void reverseFaces(PolygonMesh& mesh) {
@@ -169,16 +190,16 @@ void reverseFaces(PolygonMesh& mesh) {
 }
 
 void transformMesh(const SceneText& text, const toml::node& node, PolygonMesh& mesh) {
-  const Eigen::Affine3d transform = readTransform(text, requireTable(text, node, "transform"));
+  const Transform transform = readTransform(text, requireTable(text, node, "transform"));
   for (Vec3d& point : mesh.points) {
-    point = transform * point;
+    point = transform.map * point;
     if (!(point.cwiseAbs().maxCoeff() <= kMaxCoordinate))
       text.fail(node, "transform moves the object beyond 1e15");
   }
-  if (transform.linear().determinant() < 0) reverseFaces(mesh);
+  if (transform.mirrors) reverseFaces(mesh);
 }
 
-PolygonMesh readObjectMesh(const SceneText& text, const toml::table& table, Scene& scene) {
+PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& scene) {
   const auto* mesh = table.get("mesh");
   const auto* points = table.get("points");
   const auto* faces = table.get("faces");
@@ -186,7 +207,9 @@ PolygonMesh readObjectMesh(const SceneText& text, const toml::table& table, Scen
     const fs::path file = text.file.parent_path() / requireString(text, *mesh, "mesh");
     scene.files.push_back(file);
     try {
-      return readMesh(file);
+      requireInputFile(file);
+      requireMeshExtension(file);
+      return readMeshInto(text.hash, file);
     } catch (const InputError& error) {
       text.fail(*mesh, std::string("mesh: ") + error.what());
     }
@@ -196,7 +219,7 @@ PolygonMesh readObjectMesh(const SceneText& text, const toml::table& table, Scen
   text.fail(table, "an object needs either mesh, or points and faces");
 }
 
-SceneObject readObject(const SceneText& text, const toml::table& table, Scene& scene) {
+SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[[object]]", {"name", "mesh", "points", "faces", "transform"});
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
@@ -206,19 +229,35 @@ SceneObject readObject(const SceneText& text, const toml::table& table, Scene& s
   return object;
 }
 
-SceneText parseToml(const fs::path& file) {
+/// Refuses dotted keys so deep that the parser, which recurses, would run out of stack.
+void requireShallowKeys(const SceneText& text, std::string_view content) {
+  constexpr int kMostDots = 1000;
+  int dots = 0;
+  toml::source_index line = 1;
+  for (const char c : content) {
+    const bool inKey = std::isalnum(static_cast<unsigned char>(c)) ||
+                       std::string_view("_-.\"' \t").find(c) != std::string_view::npos;
+    dots = !inKey ? 0 : dots + (c == '.');
+    line += c == '\n';
+    if (dots > kMostDots) text.fail({{line, 1}, {line, 1}, nullptr}, "a key nested too deeply");
+  }
+}
+
+void parseToml(const fs::path& file, SceneText& text) {
   const std::string content = contentsOf(file);
-  SceneText text{file, {}};
+  text.file = file;
+  text.hash.addFile(content);
+  requireShallowKeys(text, content);
   try {
     text.root = toml::parse(content, file.string());
   } catch (const toml::parse_error& wrong) {
     text.fail(wrong.source(), std::string(wrong.description()));
   }
-  return text;
 }
 
 Scene readTomlScene(const fs::path& file) {
-  const SceneText text = parseToml(file);
+  SceneText text;
+  parseToml(file, text);
   Scene scene;
   scene.files.push_back(file);
   requireKnownKeys(text, text.root, "the scene", {"convert", "object"});
@@ -228,6 +267,7 @@ Scene readTomlScene(const fs::path& file) {
     for (const toml::node& object : requireArray(text, *objects, "[[object]]"))
       scene.objects.push_back(readObject(text, requireTable(text, object, "[[object]]"), scene));
   if (scene.objects.empty()) throw InputError(file.string() + ": has no [[object]] to convert");
+  scene.inputHash = text.hash.hex();
   return scene;
 }
 
@@ -236,8 +276,10 @@ Scene readTomlScene(const fs::path& file) {
 Scene readScene(const fs::path& file) {
   if (lowerExtension(file) == ".toml") return readTomlScene(file);
   Scene scene;
+  ContentHash hash;
   scene.files.push_back(file);
-  scene.objects.push_back({file.stem().string(), readMesh(file)});
+  scene.objects.push_back({file.stem().string(), readMeshInto(hash, file)});
+  scene.inputHash = hash.hex();
   return scene;
 }
 

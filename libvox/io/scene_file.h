@@ -22,6 +22,7 @@ struct Scene {
   std::optional<std::vector<GridKind>> grids;
   std::vector<SceneObject> objects;          ///< at least one
   std::vector<std::filesystem::path> files;  ///< the input file, then the meshes it names
+  std::string inputHash;  ///< of the contents of these files; empty if there are none
 };
 
 /// Reads a scene file (.toml, DESIGN section 11), or a mesh file as a scene of one object.

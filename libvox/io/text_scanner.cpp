@@ -1,3 +1,5 @@
+// Tokens and numbers of text formats.
+
 #include "libvox/io/text_scanner.h"
 
 #include "libvox/core/error.h"
@@ -56,7 +58,6 @@ TextScanner::TextScanner(std::string_view text, std::string fileName, Rules rule
   end_ = at_ + text.size();
   for (const char c : {' ', '\t', '\v', '\f', '\n', '\r'})
     endsToken_[static_cast<unsigned char>(c)] = true;
-  endsToken_['#'] = rules.hashComments;
   endsToken_['\\'] = rules.continuations;
 }
 

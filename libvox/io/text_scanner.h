@@ -20,7 +20,7 @@ std::string quote(std::string_view text);
 class TextScanner {
  public:
   struct Rules {
-    bool hashComments = false;   ///< # starts a comment that runs to the end of the line
+    bool hashComments = false;   ///< # at the start of a token: a comment up to the end of the line
     bool continuations = false;  ///< a backslash at the end of a line joins it with the next
   };
 
@@ -90,6 +90,7 @@ inline std::string_view TextScanner::token() {
   while (at_ != end_ && (isBlank(*at_) || continuesHere())) {
     if (*at_++ == '\\') skipLineEnd();
   }
+  if (at_ != end_ && *at_ == '#' && rules_.hashComments) return {};
   const char* const begin = at_;
   while (at_ != end_ && (!endsToken(*at_) || (*at_ == '\\' && !continuesHere()))) ++at_;
   return {begin, static_cast<std::size_t>(at_ - begin)};

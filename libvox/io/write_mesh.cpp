@@ -1,3 +1,5 @@
+// Meshes as OBJ, OFF and PLY.
+
 #include "libvox/io/write_mesh.h"
 
 #include "libvox/core/error.h"

@@ -8,9 +8,11 @@
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <iostream>
-#include <span>
+#include <string>
 
 namespace vox {
 namespace {
@@ -19,6 +21,7 @@ namespace {
 /// and then the UUID as 36 characters.
 constexpr std::streamoff kUuidOffset = 21;
 constexpr std::size_t kUuidLength = 36;
+constexpr std::array<std::size_t, 4> kDashes = {8, 13, 18, 23};
 
 /// Gives access to the archive's writer for any seekable stream; openvdb::io::File writes to a path
 /// only and does not report a full disk.
@@ -41,7 +44,7 @@ std::uint32_t compressionFlags() {
 }
 
 /// Hash of the whole stream with the UUID blanked out.
-std::string contentHash(std::iostream& stream) {
+std::string contentHash(std::istream& stream) {
   ContentHash hash;
   std::vector<char> buffer(1 << 20);
   stream.seekg(0);
@@ -61,19 +64,22 @@ std::string contentHash(std::iostream& stream) {
 std::string asUuid(std::string hex) {
   hex[12] = '8';
   hex[16] = 'a';
-  for (const std::size_t dash : {8, 13, 18, 23}) hex.insert(dash, "-");
+  for (const std::size_t dash : kDashes) hex.insert(dash, "-");
   return hex;
 }
 
-bool looksLikeUuid(std::span<const char> text) {
-  return text[8] == '-' && text[13] == '-' && text[18] == '-' && text[23] == '-';
+/// What stands at the place of the UUID; empty if it is none.
+std::string readUuid(std::istream& stream) {
+  std::string uuid(kUuidLength, '\0');
+  stream.seekg(kUuidOffset);
+  stream.read(uuid.data(), kUuidLength);
+  const bool dashed = std::all_of(kDashes.begin(), kDashes.end(),
+                                  [&](std::size_t dash) { return uuid[dash] == '-'; });
+  return stream && dashed ? uuid : std::string();
 }
 
 void replaceUuid(std::iostream& stream) {
-  std::vector<char> uuid(kUuidLength);
-  stream.seekg(kUuidOffset);
-  stream.read(uuid.data(), kUuidLength);
-  if (!stream || !looksLikeUuid(uuid))
+  if (readUuid(stream).empty())
     throw IoError("this version of OpenVDB keeps the UUID of a file elsewhere");
   const std::string name = asUuid(contentHash(stream));
   stream.seekp(kUuidOffset);
@@ -93,6 +99,13 @@ void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& 
   }
   if (stream.flush()) replaceUuid(stream);
   if (!stream.flush()) throw IoError("the output cannot be written; is the disk full?");
+}
+
+VdbContent vdbContent(std::istream& stream) {
+  const std::string uuid = readUuid(stream);
+  constexpr std::size_t kVersionDigit = 14;
+  if (uuid.empty() || uuid[kVersionDigit] != '8') return VdbContent::kForeign;
+  return uuid == asUuid(contentHash(stream)) ? VdbContent::kIntact : VdbContent::kDamaged;
 }
 
 }  // namespace vox

@@ -16,4 +16,12 @@ namespace vox {
 void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& grids,
               const openvdb::MetaMap& fileMetadata);
 
+/// Whether a file still has the content its UUID was made from.
+enum class VdbContent {
+  kForeign,  ///< the UUID is none of ours
+  kIntact,
+  kDamaged,
+};
+VdbContent vdbContent(std::istream& stream);
+
 }  // namespace vox

@@ -57,15 +57,15 @@ Adjacency buildAdjacency(const PolygonMesh& mesh) {
 OneRing oneRing(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
   Index start = c;
   bool closed = false;
-  for (Index back = previousAroundPoint(mesh, adjacency, c); back != kNone && !closed;
-       back = previousAroundPoint(mesh, adjacency, back)) {
+  for (Index back = previousAroundVertex(mesh, adjacency, c); back != kNone && !closed;
+       back = previousAroundVertex(mesh, adjacency, back)) {
     start = back;
     closed = back == c;
   }
 
   OneRing ring{{start}, closed};
-  for (Index k = nextAroundPoint(mesh, adjacency, start); k != kNone && k != start;
-       k = nextAroundPoint(mesh, adjacency, k))
+  for (Index k = nextAroundVertex(mesh, adjacency, start); k != kNone && k != start;
+       k = nextAroundVertex(mesh, adjacency, k))
     ring.corners.push_back(k);
   return ring;
 }

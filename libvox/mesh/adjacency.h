@@ -17,17 +17,17 @@ struct Adjacency {
 /// Adjacency of a mesh whose faces have at least 3 corners.
 ///
 /// Two corners are twins when they are the only two on their edge and run through it in opposite
-/// directions. Every other edge (boundary, three and more faces, inconsistent winding, from a point
-/// to itself) separates its faces: its corners get kNone. The twins of any mesh therefore form an
-/// oriented manifold with boundary.
+/// directions. Every other edge (boundary, three and more faces, inconsistent winding, from a
+/// vertex to itself) separates its faces: its corners get kNone. The twins of any mesh therefore
+/// form an oriented manifold with boundary.
 ///
 /// Cost O(C log C), parallel; result independent of thread count.
 Adjacency buildAdjacency(const PolygonMesh& mesh);
 
 /// One corner under the name of its undirected edge.
 struct EdgeCorner {
-  Index low;     ///< smaller point of the edge
-  Index high;    ///< larger point; equal to low where a face repeats a point
+  Index low;     ///< smaller vertex of the edge
+  Index high;    ///< larger vertex; equal to low where a face repeats one
   Index corner;  ///< the corner whose edge it is
   auto operator<=>(const EdgeCorner&) const = default;
 };
@@ -56,18 +56,18 @@ inline Index previousCorner(const PolygonMesh& mesh, const Adjacency& adjacency,
   return c == mesh.faceOffsets[f] ? mesh.faceOffsets[f + 1] - 1 : c - 1;
 }
 
-/// Corner of the next face counter-clockwise around the point of c, or kNone at the boundary.
-inline Index nextAroundPoint(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
+/// Corner of the next face counter-clockwise around the vertex of c, or kNone at the boundary.
+inline Index nextAroundVertex(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
   return adjacency.twin[previousCorner(mesh, adjacency, c)];
 }
-/// Corner of the next face clockwise around the point of c, or kNone at the boundary.
-inline Index previousAroundPoint(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
+/// Corner of the next face clockwise around the vertex of c, or kNone at the boundary.
+inline Index previousAroundVertex(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
   const Index t = adjacency.twin[c];
   return t == kNone ? kNone : nextCorner(mesh, adjacency, t);
 }
 
-/// The one-ring of a point as seen from one of its corners: the corners of the faces around the
-/// point that are joined to c through edges.
+/// The one-ring of a vertex as seen from one of its corners: the corners of the faces around the
+/// vertex that are joined to c through edges.
 struct OneRing {
   std::vector<Index> corners;  ///< counter-clockwise; a closed ring starts at c, an open one at the
                                ///< corner whose outgoing edge is boundary

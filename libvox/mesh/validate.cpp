@@ -41,7 +41,7 @@ void findRepeatedCorners(const PolygonMesh& mesh, DefectList& defects) {
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice == sorted.end()) continue;
     defects.add(DefectKind::kRepeatedCorner, f, [&] {
-      return "face " + str(f) + " has point " + str(*twice) + " at more than one corner";
+      return "face " + str(f) + " has vertex " + str(*twice) + " at more than one corner";
     });
   }
 }
@@ -69,8 +69,8 @@ void findEdgeDefects(const PolygonMesh& mesh, const Adjacency& adjacency, Defect
   });
 }
 
-/// Bow ties and unused points, from the number of fans at each point.
-void findPointDefects(const PolygonMesh& mesh, const Adjacency& adjacency, DefectList& defects) {
+/// Bow ties and unused vertexs, from the number of fans at each vertex.
+void findVertexDefects(const PolygonMesh& mesh, const Adjacency& adjacency, DefectList& defects) {
   std::vector<Index> fans(mesh.pointCount(), 0);
   std::vector<bool> seen(mesh.cornerCount(), false);
   for (Index c = 0; c < mesh.cornerCount(); ++c) {
@@ -80,12 +80,12 @@ void findPointDefects(const PolygonMesh& mesh, const Adjacency& adjacency, Defec
   }
   for (Index v = 0; v < mesh.pointCount(); ++v)
     if (fans[v] > 1)
-      defects.add(DefectKind::kBowTiePoint, v,
-                  [&] { return "point " + str(v) + " joins " + str(fans[v]) + " fans of faces"; });
+      defects.add(DefectKind::kBowTieVertex, v,
+                  [&] { return "vertex " + str(v) + " joins " + str(fans[v]) + " fans of faces"; });
   for (Index v = 0; v < mesh.pointCount(); ++v)
     if (fans[v] == 0)
-      defects.add(DefectKind::kUnusedPoint, v,
-                  [&] { return "point " + str(v) + " belongs to no face"; });
+      defects.add(DefectKind::kUnusedVertex, v,
+                  [&] { return "vertex " + str(v) + " belongs to no face"; });
 }
 
 void requireValidOffsets(const PolygonMesh& mesh) {
@@ -110,10 +110,10 @@ std::string defectName(DefectKind kind) {
       return "non-manifold edge";
     case DefectKind::kInconsistentWinding:
       return "inconsistently wound edge";
-    case DefectKind::kBowTiePoint:
-      return "bow-tie point";
-    case DefectKind::kUnusedPoint:
-      return "unused point";
+    case DefectKind::kBowTieVertex:
+      return "bow-tie vertex";
+    case DefectKind::kUnusedVertex:
+      return "unused vertex";
   }
   return "unknown defect";
 }
@@ -123,7 +123,7 @@ std::vector<Defect> findDefects(const PolygonMesh& mesh, const Adjacency& adjace
   DefectList defects(mostPerKind);
   findRepeatedCorners(mesh, defects);
   findEdgeDefects(mesh, adjacency, defects);
-  findPointDefects(mesh, adjacency, defects);
+  findVertexDefects(mesh, adjacency, defects);
   return defects.take();
 }
 
@@ -132,11 +132,11 @@ void requireValidArrays(const PolygonMesh& mesh) {
   for (Index f = 0; f < mesh.faceCount(); ++f)
     for (const Index v : mesh.face(f))
       if (v >= mesh.pointCount())
-        throw MeshError("face " + str(f) + " names point " + str(v) + " of " +
+        throw MeshError("face " + str(f) + " names vertex " + str(v) + " of " +
                         str(mesh.pointCount()));
   for (Index v = 0; v < mesh.pointCount(); ++v)
     if (!mesh.points[v].allFinite())
-      throw MeshError("point " + str(v) + " has a coordinate that is not finite");
+      throw MeshError("vertex " + str(v) + " has a coordinate that is not finite");
 }
 
 void requireManifold(const PolygonMesh& mesh, const Adjacency& adjacency) {
@@ -144,7 +144,7 @@ void requireManifold(const PolygonMesh& mesh, const Adjacency& adjacency) {
   const Defect* first = nullptr;
   std::size_t count = 0;
   for (const Defect& defect : defects) {
-    if (defect.kind == DefectKind::kBowTiePoint || defect.kind == DefectKind::kUnusedPoint)
+    if (defect.kind == DefectKind::kBowTieVertex || defect.kind == DefectKind::kUnusedVertex)
       continue;
     if (first == nullptr) first = &defect;
     ++count;

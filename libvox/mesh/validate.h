@@ -10,16 +10,16 @@ namespace vox {
 
 /// What can be wrong with a mesh whose indices are in range.
 enum class DefectKind {
-  kRepeatedCorner,       ///< a face names the same point twice
+  kRepeatedCorner,       ///< a face names the same vertex twice
   kNonManifoldEdge,      ///< an edge has three or more faces
   kInconsistentWinding,  ///< two faces run through their edge in the same direction
-  kBowTiePoint,          ///< the faces around a point form more than one fan
-  kUnusedPoint,          ///< a point no face names
+  kBowTieVertex,         ///< the faces around a vertex form more than one fan
+  kUnusedVertex,         ///< a vertex no face names
 };
 
 struct Defect {
   DefectKind kind;
-  Index element;        ///< face for kRepeatedCorner, corner for edge defects, else point
+  Index element;        ///< face for kRepeatedCorner, corner for edge defects, else vertex
   std::string message;  ///< names the elements with 0-based numbers: "edge (3, 7) has 4 faces: ..."
 };
 
@@ -37,7 +37,7 @@ std::vector<Defect> findDefects(const PolygonMesh& mesh, const Adjacency& adjace
 void requireValidArrays(const PolygonMesh& mesh);
 
 /// Checks that the mesh can be subdivided: an oriented manifold, with or without boundary. Bow-tie
-/// points and unused points are harmless (each fan has its own V-face) and pass.
+/// vertices and unused vertices are harmless (each fan has its own V-face) and pass.
 /// @throws MeshError  names the first offending element and says how many more there are
 void requireManifold(const PolygonMesh& mesh, const Adjacency& adjacency);
 

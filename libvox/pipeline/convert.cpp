@@ -3,25 +3,26 @@
 #include "libvox/pipeline/convert.h"
 
 #include "libvox/core/error.h"
-#include "libvox/core/hash.h"
 #include "libvox/core/memory.h"
+#include "libvox/core/threads.h"
 #include "libvox/core/version.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/write_vdb.h"
+#include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/refine.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
 #include "libvox/volume/density.h"
 #include "libvox/voxelize/vertex.h"
 
 #include <openvdb/openvdb.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace vox {
 namespace {
@@ -41,41 +42,9 @@ class StageTimer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Runs work on the number of threads asked for.
-template <class Work>
-auto onThreads(int threads, Work&& work) {
-  if (threads == 0) return work();
-  const tbb::global_control most(tbb::global_control::max_allowed_parallelism,
-                                 static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  return arena.execute(work);
-}
-
-std::uint64_t memoryLimit(const ConvertOptions& options) {
-  return options.maxMemory != 0 ? options.maxMemory : availableMemory() / 4 * 3;
-}
-
-// Bytes per element of a subdivision level, and of the tables that lay out the next one.
-constexpr std::uint64_t kBytesPerPoint = sizeof(Vec3d);
-constexpr std::uint64_t kBytesPerCorner = 4 * sizeof(Index);  // point, twin, face; offsets, rounded
-constexpr std::uint64_t kBytesPerLayoutCorner = 3 * sizeof(Index);
-
-/// Bytes to build the level after this one, whose points exist already.
-std::uint64_t bytesForNextLevel(const SubdivisionLevel& level) {
-  return level.mesh.cornerCount() * kBytesPerLayoutCorner +
-         nextCornerCount(level) * kBytesPerCorner;
-}
-
-void requireMemory(std::uint64_t bytes, std::uint64_t limit, const std::string& what,
-                   const std::string& advice) {
-  if (bytes > limit)
-    throw LimitError(what + " needs about " + formatBytes(bytes) + " of memory, the limit is " +
-                     formatBytes(limit) + "; " + advice);
-}
-
 // Resolution
 
-GridTransform chooseTransform(const Scene& scene, const ConvertOptions& options) {
+Box boxOf(const Scene& scene) {
   Box box;
   for (const SceneObject& object : scene.objects) {
     const Box part = usedBox(object.mesh);
@@ -83,6 +52,10 @@ GridTransform chooseTransform(const Scene& scene, const ConvertOptions& options)
     box.add(part.low);
     box.add(part.high);
   }
+  return box;
+}
+
+GridTransform chooseTransform(const Box& box, const Scene& scene, const ConvertOptions& options) {
   const bool fromOptions = options.dim || options.voxelSize;
   const auto voxelSize = fromOptions ? options.voxelSize : scene.voxelSize;
   const int dim = (fromOptions ? options.dim : scene.dim).value_or(kDefaultDim);
@@ -106,39 +79,84 @@ int levelsToGo(double span) {
              : static_cast<int>(std::ceil(std::log2(span / kVertexConversionSpan)));
 }
 
-/// Refuses a conversion that cannot fit before its first expensive level.
-void requireFitsAtFullDepth(const SubdivisionLevel& level, double span, std::uint64_t limit) {
+/// Bytes at the deepest moment when `levels` more are done: the points of the last level, which has
+/// no topology, and the level before it.
+double bytesAtDepth(const SubdivisionLevel& level, int levels) {
+  constexpr double kBytesPerPoint = sizeof(Vec3d);
+  constexpr double kBytesPerVertex = kBytesPerPoint + 4 * 4 * sizeof(Index);  // with four corners
+  const double points = level.mesh.cornerCount() * std::pow(4.0, levels);
+  return points * kBytesPerPoint + points / 4 * kBytesPerVertex;
+}
+
+/// Refuses a conversion that cannot fit before its first expensive level, and says what would.
+void requireFitsAtFullDepth(const SubdivisionLevel& level, double span, double voxelSize,
+                            double longestSide, const MemoryBudget& budget) {
   const int toGo = levelsToGo(span);
-  const double corners = level.mesh.cornerCount();
-  const auto bytesAt = [&](int levels) {
-    const double points = corners * std::pow(4.0, levels);  // the last level is points only
-    return points * kBytesPerPoint + points / 4 * (kBytesPerPoint + 4 * kBytesPerCorner);
-  };
   int fit = toGo;
-  while (fit > 0 && bytesAt(fit) > static_cast<double>(limit)) --fit;
+  while (fit > 0 && bytesAtDepth(level, fit) > static_cast<double>(budget.left())) --fit;
   if (fit == toGo) return;
+  constexpr double kMargin = 1.5;  // faces may shrink by less than half at first
+  const double larger = kMargin * span / kVertexConversionSpan / std::pow(2.0, fit) * voxelSize;
   std::ostringstream advice;
   advice.precision(3);
-  advice << "use voxels about " << span / kVertexConversionSpan / std::pow(2.0, fit)
-         << " times as large, or raise --max-memory";
-  requireMemory(static_cast<std::uint64_t>(std::min(bytesAt(toGo), 1e18)), limit,
-                "subdividing the whole mesh to voxel size", advice.str());
+  advice << "use --dim " << std::max(1.0, std::floor(longestSide / larger)) << " or --voxel-size "
+         << larger << ", or raise --max-memory";
+  constexpr double kMostBytes = 1e18;
+  budget.require(static_cast<std::uint64_t>(std::min(bytesAtDepth(level, toGo), kMostBytes)),
+                 "subdividing the whole mesh to voxel size", advice.str());
 }
 
 /// Subdivides until every face is small enough for vertex conversion and returns the vertices of
 /// the last level, in voxels. At least one level: the points of the input are not on the surface.
-std::vector<Vec3d> verticesAtVoxelSize(PolygonMesh meshIndex, std::uint64_t limit,
-                                       ObjectReport& report) {
-  SubdivisionLevel level = baseLevel(std::move(meshIndex));
+std::vector<Vec3d> verticesAtVoxelSize(SubdivisionLevel level, double voxelSize, double longestSide,
+                                       const MemoryBudget& budget, ObjectReport& report) {
+  constexpr const char* kAdvice = "use larger voxels, or raise --max-memory";
   for (;;) {
+    const std::uint64_t held = bytesOf(level) + bytesOfImage(level);
+    budget.require(held, "subdivision", kAdvice);
     std::vector<Vec3d> image = imageVertices(level.mesh);
     ++report.levels;
     report.vertices = image.size();
     report.largestSpan = largestChildSpan(level, image);
     if (report.largestSpan <= kVertexConversionSpan) return image;
-    requireFitsAtFullDepth(level, report.largestSpan, limit);
+    requireFitsAtFullDepth(level, report.largestSpan, voxelSize, longestSide, budget);
+    budget.require(held + bytesOfNextTopology(level), "subdivision", kAdvice);
     level = nextLevel(level, std::move(image));
   }
+}
+
+/// What a user may not expect of an open mesh.
+void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, ConvertReport& report) {
+  const std::size_t loops = boundaryLoops(level.mesh, level.adjacency).size();
+  if (loops == 0) return;
+  std::string warning = name + " is open: it has " + std::to_string(loops) + " boundary " +
+                        (loops == 1 ? "loop" : "loops") + ", from which it shrinks";
+  if (loops >= level.mesh.faceCount())
+    warning += " to dots: faces are neighbours only where they name the same vertices";
+  report.warnings.push_back(warning);
+}
+
+// Memory of grids
+
+template <class TreeT>
+std::uint64_t bytesOfTree(const TreeFootprint& footprint, std::size_t bytesPerVoxel) {
+  using Leaf = typename TreeT::LeafNodeType;
+  using Lower = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
+  using Upper = typename TreeT::RootNodeType::ChildNodeType;
+  return footprint.leaves * (sizeof(Leaf) + Leaf::SIZE * bytesPerVoxel) +
+         footprint.lowerNodes * sizeof(Lower) + footprint.upperNodes * sizeof(Upper);
+}
+
+constexpr const char* kScattered =
+    "the model is scattered over much space: use larger voxels, or raise --max-memory";
+
+void mark(const std::vector<Vec3d>& vertices, openvdb::MaskGrid& mask, MemoryBudget& budget) {
+  TreeFootprint footprint = footprintOf(vertices);
+  // Threads may need a node at the same place each, until their trees are merged.
+  footprint.lowerNodes *= 2;
+  footprint.upperNodes *= 2;
+  budget.take(bytesOfTree<openvdb::MaskTree>(footprint, 0), "the grid", kScattered);
+  markVertices(vertices, mask);
 }
 
 // Metadata
@@ -163,7 +181,7 @@ openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
   metadata.insertMeta("vox_version", openvdb::StringMetadata(version()));
   if (!scene.files.empty()) {
     metadata.insertMeta("vox_input", openvdb::StringMetadata(scene.files[0].filename().string()));
-    metadata.insertMeta("vox_input_hash", openvdb::StringMetadata(hashOfFiles(scene.files)));
+    metadata.insertMeta("vox_input_hash", openvdb::StringMetadata(scene.inputHash));
   }
   metadata.insertMeta("vox_options",
                       openvdb::StringMetadata(optionText(transform, scene, options)));
@@ -173,28 +191,21 @@ openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
   return metadata;
 }
 
-openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask) {
-  switch (kind) {
-    case GridKind::kDensity:
-      return densityGrid(*mask);
-    case GridKind::kMask:
-      return mask;
-  }
-  return nullptr;
+openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
+                                MemoryBudget& budget) {
+  if (kind == GridKind::kMask) return mask;
+  const auto nodes = mask->tree().nodeCount();  // leaves first, root last
+  budget.take(bytesOfTree<openvdb::FloatTree>({nodes[0], nodes[1], nodes[2]}, sizeof(float)),
+              "the density grid", kScattered);
+  return densityGrid(*mask);
 }
 
-Conversion convertOnThisArena(const Scene& scene, const ConvertOptions& options) {
-  openvdb::initialize();
-  Conversion result;
-  ConvertReport& report = result.report;
-  const std::uint64_t limit = memoryLimit(options);
-  const GridTransform transform = chooseTransform(scene, options);
-  report.voxelSize = transform.voxelSize;
-
+openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const GridTransform& transform,
+                                      double longestSide, MemoryBudget& budget,
+                                      ConvertReport& report) {
   auto mask = openvdb::MaskGrid::create();
   mask->setName(gridName(GridKind::kMask));
   mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
-
   for (const SceneObject& object : scene.objects) {
     ObjectReport& part = report.objects.emplace_back();
     part.name = object.name;
@@ -202,18 +213,37 @@ Conversion convertOnThisArena(const Scene& scene, const ConvertOptions& options)
     std::vector<Vec3d> vertices;
     {
       const StageTimer timer(report.subdivideSeconds);
-      vertices = verticesAtVoxelSize(inIndexSpace(object.mesh, transform), limit, part);
+      SubdivisionLevel base =
+          baseLevelOf(scene, object, inIndexSpace(object.mesh, transform), budget);
+      warnOfBoundary(object.name, base, report);
+      vertices =
+          verticesAtVoxelSize(std::move(base), transform.voxelSize, longestSide, budget, part);
     }
     const StageTimer timer(report.voxelizeSeconds);
-    markVertices(vertices, *mask);
+    mark(vertices, *mask, budget);
   }
   report.activeVoxels = mask->activeVoxelCount();
+  return mask;
+}
 
-  const openvdb::MetaMap metadata = describe(scene, options, transform, report);
+Conversion convertScene(const Scene& scene, const ConvertOptions& options) {
+  openvdb::initialize();
+  Conversion result;
+  MemoryBudget budget(options.run.maxMemory);
+  for (const SceneObject& object : scene.objects)
+    budget.take(bytesOf(object.mesh), "the input", "raise --max-memory");
+
+  const Box box = boxOf(scene);
+  const GridTransform transform = chooseTransform(box, scene, options);
+  result.report.voxelSize = transform.voxelSize;
+  const openvdb::MaskGrid::Ptr mask =
+      convertObjects(scene, transform, box.longestSide(), budget, result.report);
+
+  const openvdb::MetaMap metadata = describe(scene, options, transform, result.report);
   const std::vector<GridKind> kinds =
       options.grids.value_or(scene.grids.value_or(std::vector{GridKind::kDensity}));
   for (const GridKind kind : kinds) {
-    openvdb::GridBase::Ptr grid = makeGrid(kind, mask);
+    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, budget);
     for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
       grid->insertMeta(entry->first, *entry->second);
     result.grids.push_back(std::move(grid));
@@ -221,43 +251,11 @@ Conversion convertOnThisArena(const Scene& scene, const ConvertOptions& options)
   return result;
 }
 
-void append(PolygonMesh& all, const PolygonMesh& part) {
-  if (std::uint64_t{all.cornerCount()} + part.cornerCount() >= kNone ||
-      std::uint64_t{all.pointCount()} + part.pointCount() >= kNone)
-    throw LimitError("the objects together have more elements than fit in 32 bits");
-  const Index firstPoint = all.pointCount();
-  const Index firstCorner = all.cornerCount();
-  all.points.insert(all.points.end(), part.points.begin(), part.points.end());
-  for (const Index v : part.faceVertices) all.faceVertices.push_back(firstPoint + v);
-  for (Index f = 0; f < part.faceCount(); ++f)
-    all.faceOffsets.push_back(firstCorner + part.faceOffsets[f + 1]);
-}
-
-PolygonMesh refineOnThisArena(const Scene& scene, int levels, const ConvertOptions& options) {
-  if (levels < 0) throw UsageError("--levels must be 0 or more, not " + std::to_string(levels));
-  const std::uint64_t limit = memoryLimit(options);
-  PolygonMesh all;
-  for (const SceneObject& object : scene.objects) {
-    SubdivisionLevel level = baseLevel(object.mesh);
-    for (int k = 0; k < levels; ++k) {
-      requireMemory(level.mesh.cornerCount() * kBytesPerPoint + bytesForNextLevel(level), limit,
-                    "level " + std::to_string(k + 1),
-                    "use --levels " + std::to_string(k) + " or raise --max-memory");
-      level = nextLevel(level, imageVertices(level.mesh));
-    }
-    append(all, level.mesh);
-  }
-  return all;
-}
-
 }  // namespace
 
 Conversion convert(const Scene& scene, const ConvertOptions& options) {
-  return onThreads(options.threads, [&] { return convertOnThisArena(scene, options); });
-}
-
-PolygonMesh refine(const Scene& scene, int levels, const ConvertOptions& options) {
-  return onThreads(options.threads, [&] { return refineOnThisArena(scene, levels, options); });
+  requireValidScene(scene);
+  return onThreads(options.run.threads, [&] { return convertScene(scene, options); });
 }
 
 void writeGrids(std::iostream& stream, const Conversion& conversion) {

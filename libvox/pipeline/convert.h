@@ -2,7 +2,7 @@
 
 #include "libvox/grid/grid_kind.h"
 #include "libvox/io/scene_file.h"
-#include "libvox/mesh/polygon_mesh.h"
+#include "libvox/pipeline/run_options.h"
 
 #include <openvdb/version.h>
 
@@ -29,8 +29,7 @@ struct ConvertOptions {
   std::optional<int> dim;           ///< voxels along the longest side of the input; default 256
   std::optional<double> voxelSize;  ///< world units; overrides dim
   std::optional<std::vector<GridKind>> grids;  ///< default: density
-  std::uint64_t maxMemory = 0;  ///< bytes for meshes; 0: three quarters of what is available
-  int threads = 0;              ///< 0: all processors
+  RunOptions run;
 };
 
 inline constexpr int kDefaultDim = 256;
@@ -48,8 +47,8 @@ struct ConvertReport {
   double voxelSize = 0;  ///< world units
   std::vector<ObjectReport> objects;
   std::uint64_t activeVoxels = 0;
-  double prepareSeconds = 0;
-  double subdivideSeconds = 0;  ///< with the search for the level
+  std::vector<std::string> warnings;  ///< one line each: what the user may not expect
+  double subdivideSeconds = 0;        ///< with the search for the level
   double voxelizeSeconds = 0;
 };
 
@@ -63,9 +62,11 @@ struct Conversion {
 /// criterion, so the active voxels 6-separate the two sides of each surface. Grids carry the
 /// metadata of DESIGN section 9. The result does not depend on the number of threads.
 ///
-/// @throws UsageError  dim or voxel size out of range
-/// @throws MeshError   an object is not an oriented manifold (named, with the offending element)
-/// @throws LimitError  not enough memory, or coordinates beyond the range of the grid
+/// @throws UsageError  dim, voxel size or number of threads is nonsense
+/// @throws InputError  the input has no extent and no voxel size is given
+/// @throws MeshError   an object is not an oriented manifold; the message names file, object and
+///   element
+/// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid
 Conversion convert(const Scene& scene, const ConvertOptions& options);
 
 /// Writes grids to a new file: complete or not at all, equal input giving equal bytes.
@@ -74,9 +75,5 @@ void writeGrids(const std::filesystem::path& file, const Conversion& conversion,
 
 /// The same to a stream that must be readable, writable, seekable and empty.
 void writeGrids(std::iostream& stream, const Conversion& conversion);
-
-/// All objects of a scene as one mesh, after K Doo-Sabin steps.
-/// @throws MeshError, LimitError  as convert
-PolygonMesh refine(const Scene& scene, int levels, const ConvertOptions& options);
 
 }  // namespace vox

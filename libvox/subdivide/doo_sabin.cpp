@@ -101,7 +101,7 @@ void placeRingSlots(const SubdivisionLevel& level, ChildLayout& layout) {
                         Index k = c;
                         do {
                           layout.ringSlot[k] = slot++;
-                          k = nextAroundPoint(level.mesh, level.adjacency, k);
+                          k = nextAroundVertex(level.mesh, level.adjacency, k);
                         } while (k != c);
                       }
                     });
@@ -127,8 +127,8 @@ ChildLayout layOutChildren(const SubdivisionLevel& level) {
 ///
 /// The E-face of the edge c = v->w with twin t = w->v is [next c, c, next t, t]; its edges face, in
 /// this order, the F-face edge c, the V-face of v, the F-face edge t, the V-face of w. The V-face
-/// edge that starts at corner x leads to y = nextAroundPoint(x) and faces the E-face that runs from
-/// y to x.
+/// edge that starts at corner x leads to y = nextAroundVertex(x) and faces the E-face that runs
+/// from y to x.
 class ChildTopology {
  public:
   ChildTopology(const SubdivisionLevel& level, const ChildLayout& layout, SubdivisionLevel& child)
@@ -162,9 +162,9 @@ class ChildTopology {
     const Index nextT = nextCorner(mesh_, adjacency_, t);
     const Index face = mesh_.faceCount() + layout_.edge[c];
     set(edgeCorner(c, 0), nextC, face, c);
-    set(edgeCorner(c, 1), c, face, acrossPoint(nextT));
+    set(edgeCorner(c, 1), c, face, acrossVertex(nextT));
     set(edgeCorner(c, 2), nextT, face, t);
-    set(edgeCorner(c, 3), t, face, acrossPoint(nextC));
+    set(edgeCorner(c, 3), t, face, acrossVertex(nextC));
   }
 
   void writeVertexFace(Index leader) {
@@ -172,7 +172,7 @@ class ChildTopology {
     Index x = leader;
     do {
       set(firstRingCorner_ + layout_.ringSlot[x], x, face, edgeFacing(x));
-      x = nextAroundPoint(mesh_, adjacency_, x);
+      x = nextAroundVertex(mesh_, adjacency_, x);
     } while (x != leader);
   }
 
@@ -181,18 +181,18 @@ class ChildTopology {
     return firstEdgeCorner_ + 4 * layout_.edge[leader] + i;
   }
 
-  /// E-face corner whose edge runs from y = nextAroundPoint(x) to x.
+  /// E-face corner whose edge runs from y = nextAroundVertex(x) to x.
   Index edgeFacing(Index x) const {
-    const Index y = nextAroundPoint(mesh_, adjacency_, x);
+    const Index y = nextAroundVertex(mesh_, adjacency_, x);
     return leadsEdge(adjacency_, y) ? edgeCorner(y, 1) : edgeCorner(adjacency_.twin[y], 3);
   }
 
-  /// What the E-face edge into corner x faces across the point: the V-face, or at a point with two
-  /// faces the other E-face, or nothing at the boundary.
-  Index acrossPoint(Index x) const {
+  /// What the E-face edge into corner x faces across the vertex: the V-face, or at a vertex with
+  /// two faces the other E-face, or nothing at the boundary.
+  Index acrossVertex(Index x) const {
     if (layout_.ringSlot[x] != kNone) return firstRingCorner_ + layout_.ringSlot[x];
-    const Index y = nextAroundPoint(mesh_, adjacency_, x);
-    const bool valenceTwo = y != kNone && nextAroundPoint(mesh_, adjacency_, y) == x;
+    const Index y = nextAroundVertex(mesh_, adjacency_, x);
+    const bool valenceTwo = y != kNone && nextAroundVertex(mesh_, adjacency_, y) == x;
     return valenceTwo ? edgeFacing(y) : kNone;
   }
 
@@ -226,12 +226,6 @@ SubdivisionLevel baseLevel(PolygonMesh mesh) {
   return level;
 }
 
-double dooSabinWeight(int iMinusJ, int n) {
-  const int i = ((iMinusJ % n) + n) % n;
-  const double cosine = unitRoot(static_cast<Index>(i), static_cast<Index>(n)).cosine;
-  return i == 0 ? (n + 5) / (4.0 * n) : (3 + 2 * cosine) / (4.0 * n);
-}
-
 std::vector<Vec3d> imageVertices(const PolygonMesh& mesh) {
   std::vector<Vec3d> image(mesh.cornerCount());
   tbb::parallel_for(tbb::blocked_range<Index>(0, mesh.faceCount(), kFacesPerTask),
@@ -254,10 +248,10 @@ Index ledRingSize(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) 
   Index left = c;
   Index right = c;
   for (Index steps = 1;; ++steps) {
-    left = nextAroundPoint(mesh, adjacency, left);
+    left = nextAroundVertex(mesh, adjacency, left);
     if (left == kNone || left < c) return 0;
     if (left == c) return steps;
-    right = previousAroundPoint(mesh, adjacency, right);
+    right = previousAroundVertex(mesh, adjacency, right);
     if (right == kNone || right < c) return 0;
   }
 }

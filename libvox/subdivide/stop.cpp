@@ -42,7 +42,7 @@ double vertexFaceSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& i
   Index k = c;
   do {
     ring.push_back(image[k]);
-    k = nextAroundPoint(level.mesh, level.adjacency, k);
+    k = nextAroundVertex(level.mesh, level.adjacency, k);
   } while (k != c);
   return faceSpan(ring);
 }

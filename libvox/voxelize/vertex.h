@@ -5,6 +5,7 @@
 #include <openvdb/openvdb.h>
 
 #include <cmath>
+#include <cstdint>
 #include <span>
 
 namespace vox {
@@ -19,6 +20,16 @@ inline openvdb::Coord voxelOf(const Vec3d& positionIndex) {
   const auto round = [](double x) { return static_cast<openvdb::Int32>(std::floor(x + 0.5)); };
   return {round(positionIndex.x()), round(positionIndex.y()), round(positionIndex.z())};
 }
+
+/// Nodes of an OpenVDB tree (leaves of 8^3 voxels, inner nodes of 128^3 and 4096^3) that hold the
+/// voxels of some positions.
+struct TreeFootprint {
+  std::uint64_t leaves = 0;
+  std::uint64_t lowerNodes = 0;
+  std::uint64_t upperNodes = 0;
+};
+/// The footprint that markVertices of these positions will have in an empty grid. Parallel.
+TreeFootprint footprintOf(std::span<const Vec3d> positionsIndex);
 
 /// Vertex conversion: activates the voxel of each position (index space).
 ///

@@ -1,0 +1,65 @@
+#include "libvox/pipeline/refine.h"
+
+#include "libvox/core/error.h"
+#include "tests/shapes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace vox;
+using Catch::Contains;
+
+namespace {
+
+Scene sceneOf(const std::vector<PolygonMesh>& meshes) {
+  Scene scene;
+  for (const PolygonMesh& mesh : meshes)
+    scene.objects.push_back({"object " + std::to_string(scene.objects.size() + 1), mesh});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("refining a scene joins its objects into one mesh", "[pipeline]") {
+  const Scene scene = sceneOf({test::cube(), test::tetrahedron()});
+  const PolygonMesh mesh = refine(scene, 1, {});
+  CHECK(mesh.pointCount() == 24 + 12);
+  CHECK(mesh.faceCount() == 26 + 14);
+  CHECK(mesh.face(26)[0] == 24);
+  CHECK(refine(scene, 0, {}).points == [] {
+    auto points = test::cube().points;
+    const auto more = test::tetrahedron().points;
+    points.insert(points.end(), more.begin(), more.end());
+    return points;
+  }());
+}
+
+TEST_CASE("level 0 takes meshes that could not be subdivided", "[pipeline]") {
+  CHECK(refine(sceneOf({test::moebius(6)}), 0, {}).faceCount() == 6);
+  CHECK_THROWS_AS(refine(sceneOf({test::moebius(6)}), 1, {}), MeshError);
+}
+
+TEST_CASE("an error names file, object and element", "[pipeline][error]") {
+  Scene scene = sceneOf({test::cube(), test::moebius(6)});
+  scene.files = {"two.toml"};
+  CHECK_THROWS_WITH(refine(scene, 1, {}),
+                    Contains("two.toml: object 2: faces") && Contains("counted from 0"));
+}
+
+TEST_CASE("refinement keeps to its memory limit", "[pipeline][error]") {
+  RunOptions options;
+  options.maxMemory = std::uint64_t{1} << 26;
+  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), 25, options), LimitError);
+  const std::vector<PolygonMesh> many(40, test::cube());
+  CHECK_NOTHROW(refine(sceneOf({test::cube()}), 6, options));
+  CHECK_THROWS_AS(refine(sceneOf(many), 6, options), LimitError);
+}
+
+TEST_CASE("impossible requests for refinement are refused", "[pipeline][error]") {
+  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), -1, {}), UsageError);
+  RunOptions options;
+  options.threads = -3;
+  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), 1, options), UsageError);
+  PolygonMesh wrong = test::cube();
+  wrong.faceVertices[5] = 50000000;
+  CHECK_THROWS_AS(refine(sceneOf({wrong}), 1, {}), MeshError);
+}
