@@ -1,6 +1,6 @@
 #include "libvox/mesh/adjacency.h"
 
-#include "libvox/core/threads.h"
+#include "libvox/core/parallel.h"
 #include "tests/shapes.h"
 
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>

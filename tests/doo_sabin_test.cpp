@@ -1,7 +1,7 @@
 #include "libvox/subdivide/doo_sabin.h"
 
 #include "libvox/core/error.h"
-#include "libvox/core/threads.h"
+#include "libvox/core/parallel.h"
 #include "libvox/mesh/validate.h"
 #include "tests/reference.h"
 #include "tests/shapes.h"

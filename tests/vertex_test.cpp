@@ -1,6 +1,6 @@
 #include "libvox/voxelize/vertex.h"
 
-#include "libvox/core/threads.h"
+#include "libvox/core/parallel.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "tests/reference.h"
 #include "tests/shapes.h"

@@ -2,9 +2,7 @@
 
 #include "libvox/mesh/adjacency.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
+#include "libvox/core/parallel.h"
 
 #include <algorithm>
 
@@ -16,12 +14,10 @@ constexpr std::size_t kFacesPerTask = 2048;
 
 std::vector<Index> cornerFaces(const PolygonMesh& mesh) {
   std::vector<Index> cornerFace(mesh.cornerCount());
-  tbb::parallel_for(tbb::blocked_range<Index>(0, mesh.faceCount(), kFacesPerTask),
-                    [&](const auto& range) {
-                      for (Index f = range.begin(); f != range.end(); ++f)
-                        std::fill(cornerFace.begin() + mesh.faceOffsets[f],
-                                  cornerFace.begin() + mesh.faceOffsets[f + 1], f);
-                    });
+  forEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
+    std::fill(cornerFace.begin() + mesh.faceOffsets[f],
+              cornerFace.begin() + mesh.faceOffsets[f + 1], f);
+  });
   return cornerFace;
 }
 
@@ -29,15 +25,12 @@ std::vector<Index> cornerFaces(const PolygonMesh& mesh) {
 
 std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& adjacency) {
   std::vector<EdgeCorner> edges(mesh.cornerCount());
-  tbb::parallel_for(tbb::blocked_range<Index>(0, mesh.cornerCount(), kCornersPerTask),
-                    [&](const auto& range) {
-                      for (Index c = range.begin(); c != range.end(); ++c) {
-                        const Index from = mesh.faceVertices[c];
-                        const Index to = mesh.faceVertices[nextCorner(mesh, adjacency, c)];
-                        edges[c] = {std::min(from, to), std::max(from, to), c};
-                      }
-                    });
-  tbb::parallel_sort(edges.begin(), edges.end());
+  forEach(mesh.cornerCount(), kCornersPerTask, [&](Index c) {
+    const Index from = mesh.faceVertices[c];
+    const Index to = mesh.faceVertices[nextCorner(mesh, adjacency, c)];
+    edges[c] = {std::min(from, to), std::max(from, to), c};
+  });
+  sortInParallel(edges);
   return edges;
 }
 

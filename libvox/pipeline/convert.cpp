@@ -4,7 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
-#include "libvox/core/threads.h"
+#include "libvox/core/parallel.h"
 #include "libvox/core/version.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"

@@ -3,7 +3,7 @@
 #include "libvox/pipeline/refine.h"
 
 #include "libvox/core/error.h"
-#include "libvox/core/threads.h"
+#include "libvox/core/parallel.h"
 #include "libvox/mesh/validate.h"
 
 #include <string>

@@ -5,10 +5,8 @@
 #include "libvox/subdivide/doo_sabin.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
 #include "libvox/mesh/validate.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -83,28 +81,22 @@ struct ChildLayout {
 
 std::vector<Index> ledRingSizes(const SubdivisionLevel& level) {
   std::vector<Index> sizes(level.mesh.cornerCount());
-  tbb::parallel_for(tbb::blocked_range<Index>(0, level.mesh.cornerCount(), kCornersPerTask),
-                    [&](const auto& range) {
-                      for (Index c = range.begin(); c != range.end(); ++c)
-                        sizes[c] = ledRingSize(level.mesh, level.adjacency, c);
-                    });
+  forEach(level.mesh.cornerCount(), kCornersPerTask,
+          [&](Index c) { sizes[c] = ledRingSize(level.mesh, level.adjacency, c); });
   return sizes;
 }
 
 void placeRingSlots(const SubdivisionLevel& level, ChildLayout& layout) {
   layout.ringSlot.assign(level.mesh.cornerCount(), kNone);
-  tbb::parallel_for(tbb::blocked_range<Index>(0, level.mesh.cornerCount(), kCornersPerTask),
-                    [&](const auto& range) {
-                      for (Index c = range.begin(); c != range.end(); ++c) {
-                        if (layout.ring[c] == kNone) continue;
-                        Index slot = layout.ringOffset[layout.ring[c]];
-                        Index k = c;
-                        do {
-                          layout.ringSlot[k] = slot++;
-                          k = nextAroundVertex(level.mesh, level.adjacency, k);
-                        } while (k != c);
-                      }
-                    });
+  forEach(level.mesh.cornerCount(), kCornersPerTask, [&](Index c) {
+    if (layout.ring[c] == kNone) return;
+    Index slot = layout.ringOffset[layout.ring[c]];
+    Index k = c;
+    do {
+      layout.ringSlot[k] = slot++;
+      k = nextAroundVertex(level.mesh, level.adjacency, k);
+    } while (k != c);
+  });
 }
 
 ChildLayout layOutChildren(const SubdivisionLevel& level) {
@@ -228,19 +220,18 @@ SubdivisionLevel baseLevel(PolygonMesh mesh) {
 
 std::vector<Vec3d> imageVertices(const PolygonMesh& mesh) {
   std::vector<Vec3d> image(mesh.cornerCount());
-  tbb::parallel_for(tbb::blocked_range<Index>(0, mesh.faceCount(), kFacesPerTask),
-                    [&](const auto& range) {
-                      std::vector<UnitRoot> roots;
-                      for (Index f = range.begin(); f != range.end(); ++f) {
-                        const Index n = mesh.faceSize(f);
-                        if (n == 4) {
-                          imageOfQuad(mesh, mesh.faceOffsets[f], image);
-                          continue;
-                        }
-                        if (roots.size() != n) roots = unitRoots(n);
-                        imageOfPolygon(mesh, mesh.faceOffsets[f], roots, image);
-                      }
-                    });
+  forParts(mesh.faceCount(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<UnitRoot> roots;
+    for (Index f = static_cast<Index>(begin); f != end; ++f) {
+      const Index n = mesh.faceSize(f);
+      if (n == 4) {
+        imageOfQuad(mesh, mesh.faceOffsets[f], image);
+        continue;
+      }
+      if (roots.size() != n) roots = unitRoots(n);
+      imageOfPolygon(mesh, mesh.faceOffsets[f], roots, image);
+    }
+  });
   return image;
 }
 
@@ -279,12 +270,10 @@ SubdivisionLevel nextLevel(const SubdivisionLevel& level, std::vector<Vec3d> ima
 
   ChildTopology topology(level, layout, child);
   topology.writeFaceOffsets();
-  tbb::parallel_for(tbb::blocked_range<Index>(0, corners, kCornersPerTask), [&](const auto& range) {
-    for (Index c = range.begin(); c != range.end(); ++c) {
-      topology.writeFaceCorner(c);
-      if (layout.edge[c] != kNone) topology.writeEdgeFace(c);
-      if (layout.ring[c] != kNone) topology.writeVertexFace(c);
-    }
+  forEach(corners, kCornersPerTask, [&](Index c) {
+    topology.writeFaceCorner(c);
+    if (layout.edge[c] != kNone) topology.writeEdgeFace(c);
+    if (layout.ring[c] != kNone) topology.writeVertexFace(c);
   });
   return child;
 }

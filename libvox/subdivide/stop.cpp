@@ -2,8 +2,7 @@
 
 #include "libvox/subdivide/stop.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
+#include "libvox/core/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -61,16 +60,15 @@ double faceSpan(std::span<const Vec3d> corners) {
 }
 
 double largestChildSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<Index>(0, level.mesh.cornerCount(), kCornersPerTask), 0.0,
-      [&](const auto& range, double largest) {
+  return maxOverParts(
+      level.mesh.cornerCount(), kCornersPerTask, [&](std::size_t begin, std::size_t end) {
         std::vector<Vec3d> ring;
-        for (Index c = range.begin(); c != range.end(); ++c)
+        double largest = 0;
+        for (Index c = static_cast<Index>(begin); c != end; ++c)
           largest = std::max({largest, faceFaceSpan(level, image, c), edgeFaceSpan(level, image, c),
                               vertexFaceSpan(level, image, c, ring)});
         return largest;
-      },
-      [](double a, double b) { return std::max(a, b); });
+      });
 }
 
 }  // namespace vox

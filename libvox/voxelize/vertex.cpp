@@ -2,10 +2,9 @@
 
 #include "libvox/voxelize/vertex.h"
 
-#include <tbb/blocked_range.h>
+#include "libvox/core/parallel.h"
+
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <vector>
@@ -29,7 +28,7 @@ std::vector<Coord> originsOf(const std::vector<Coord>& voxels, int log2) {
                          << static_cast<std::size_t>(log2);
     if (origins.empty() || origins.back() != origin) origins.push_back(origin);
   }
-  tbb::parallel_sort(origins.begin(), origins.end());
+  sortInParallel(origins);
   origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
   return origins;
 }
@@ -46,11 +45,9 @@ void appendLeaves(std::span<const Vec3d> positionsIndex, std::vector<Coord>& lea
 
 TreeFootprint footprintOf(std::span<const Vec3d> positionsIndex) {
   tbb::enumerable_thread_specific<std::vector<Coord>> parts;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positionsIndex.size(), kPointsPerTask),
-                    [&](const auto& range) {
-                      appendLeaves(positionsIndex.subspan(range.begin(), range.size()),
-                                   parts.local());
-                    });
+  forParts(positionsIndex.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
+    appendLeaves(positionsIndex.subspan(begin, end - begin), parts.local());
+  });
   std::vector<Coord> leaves;
   for (const auto& part : parts) leaves.insert(leaves.end(), part.begin(), part.end());
   leaves = originsOf(leaves, kLeafLog2);
@@ -60,12 +57,10 @@ TreeFootprint footprintOf(std::span<const Vec3d> positionsIndex) {
 
 void markVertices(std::span<const Vec3d> positionsIndex, openvdb::MaskGrid& mask) {
   tbb::enumerable_thread_specific<openvdb::MaskTree> trees;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positionsIndex.size(), kPointsPerTask),
-                    [&](const auto& range) {
-                      openvdb::tree::ValueAccessor<openvdb::MaskTree> voxels(trees.local());
-                      for (std::size_t i = range.begin(); i != range.end(); ++i)
-                        voxels.setValueOn(voxelOf(positionsIndex[i]));
-                    });
+  forParts(positionsIndex.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
+    openvdb::tree::ValueAccessor<openvdb::MaskTree> voxels(trees.local());
+    for (std::size_t i = begin; i != end; ++i) voxels.setValueOn(voxelOf(positionsIndex[i]));
+  });
   trees.combine_each([&](openvdb::MaskTree& tree) { mask.tree().merge(tree); });
 }
 

@@ -1,0 +1,124 @@
+#pragma once
+
+#include "libvox/core/error.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
+
+namespace vox {
+
+/// Tells ThreadSanitizer what TBB guarantees: what the caller did happens before every part of a
+/// loop, and every part before what the caller does next. (Debian's TBB is built without it, so the
+/// sanitizer does not see how a task reaches another thread.) Does nothing in other builds.
+class LoopOrder {
+ public:
+  LoopOrder() { release(&begin_); }
+  void partBegins() { acquire(&begin_); }
+  void partEnds() { release(&end_); }
+  void loopEnds() { acquire(&end_); }
+
+ private:
+#ifdef __SANITIZE_THREAD__
+  static void acquire(char* token) {
+    __tsan_acquire(token);
+  }
+  static void release(char* token) {
+    __tsan_release(token);
+  }
+#else
+  static void acquire(char*) {}
+  static void release(char*) {}
+#endif
+  char begin_ = 0;
+  char end_ = 0;
+};
+
+/// Calls body(begin, end) for parts of [0, count) of at least about `grain` elements, in parallel.
+template <class Body>
+void forParts(std::size_t count, std::size_t grain, Body&& body) {
+  LoopOrder order;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain), [&](const auto& range) {
+    order.partBegins();
+    body(range.begin(), range.end());
+    order.partEnds();
+  });
+  order.loopEnds();
+}
+
+/// Calls body(i) for every i in [0, count), in parallel.
+template <class Integer, class Body>
+void forEach(Integer count, std::size_t grain, Body&& body) {
+  forParts(count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i != end; ++i) body(static_cast<Integer>(i));
+  });
+}
+
+/// Largest value of body(begin, end) over parts of [0, count), at least 0, in parallel.
+template <class Body>
+double maxOverParts(std::size_t count, std::size_t grain, Body&& body) {
+  LoopOrder order;
+  const double largest = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, count, grain), 0.0,
+      [&](const auto& range, double before) {
+        order.partBegins();
+        const double here = std::max(before, body(range.begin(), range.end()));
+        order.partEnds();
+        return here;
+      },
+      [](double a, double b) { return std::max(a, b); });
+  order.loopEnds();
+  return largest;
+}
+
+/// Sorts a vector, in parallel; in order of the elements' <, which must be total.
+template <class Element>
+void sortInParallel(std::vector<Element>& elements) {
+#ifdef __SANITIZE_THREAD__
+  std::sort(elements.begin(), elements.end());  // the parts of TBB's sort cannot tell their order
+#else
+  tbb::parallel_sort(elements.begin(), elements.end());
+#endif
+}
+
+/// Runs work on `threads` threads, or on all processors if 0, and returns its result. The arena
+/// raises the number, the control lowers it.
+/// @throws UsageError  threads < 0
+template <class Work>
+auto onThreads(int threads, Work&& work) {
+  if (threads < 0)
+    throw UsageError("the number of threads must be 0 or more, not " + std::to_string(threads));
+  if (threads == 0) return work();
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  LoopOrder order;
+  struct PartEnd {
+    LoopOrder& order;
+    ~PartEnd() { order.partEnds(); }
+  };
+  struct LoopEnd {
+    LoopOrder& order;
+    ~LoopEnd() { order.loopEnds(); }
+  };
+  const LoopEnd loopEnd{order};
+  return arena.execute([&] {
+    order.partBegins();
+    const PartEnd partEnd{order};
+    return work();
+  });
+}
+
+}  // namespace vox
