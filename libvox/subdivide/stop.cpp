@@ -2,6 +2,8 @@
 
 #include "libvox/subdivide/stop.h"
 
+#include "libvox/subdivide/strip.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -47,6 +49,40 @@ double vertexFaceSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& i
   return faceSpan(ring);
 }
 
+/// Of the half E-face and the half V-face of boundary corner k.
+double halfFaceSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image,
+                    const std::vector<Index>& boundary, std::size_t k, std::vector<Vec3d>& ring) {
+  const PolygonMesh& mesh = level.mesh;
+  const Adjacency& adjacency = level.adjacency;
+  const Index c = boundary[k];
+  const Vec3d* const points = image.data() + mesh.cornerCount();
+  ring.clear();
+  Index last = c;
+  for (Index x = c; x != kNone; x = nextAroundVertex(mesh, adjacency, x)) {
+    ring.push_back(image[x]);
+    last = x;
+  }
+  const Index arriving = previousCorner(mesh, adjacency, last);
+  const auto j = std::lower_bound(boundary.begin(), boundary.end(), arriving) - boundary.begin();
+  ring.push_back(points[2 * j + 1]);
+  ring.push_back(points[2 * k]);
+  return std::max(faceSpan(ring), quadSpan(image[nextCorner(mesh, adjacency, c)], image[c],
+                                           points[2 * k], points[2 * k + 1]));
+}
+
+double largestHalfFaceSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image) {
+  const std::vector<Index> boundary = boundaryCorners(level.adjacency);
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, boundary.size(), kCornersPerTask), 0.0,
+      [&](const auto& range, double largest) {
+        std::vector<Vec3d> ring;
+        for (std::size_t k = range.begin(); k != range.end(); ++k)
+          largest = std::max(largest, halfFaceSpan(level, image, boundary, k, ring));
+        return largest;
+      },
+      [](double a, double b) { return std::max(a, b); });
+}
+
 }  // namespace
 
 double faceSpan(std::span<const Vec3d> corners) {
@@ -61,8 +97,10 @@ double faceSpan(std::span<const Vec3d> corners) {
 }
 
 double largestChildSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image) {
+  const double half =
+      level.boundary == BoundaryStage::kExtend ? largestHalfFaceSpan(level, image) : 0;
   return tbb::parallel_reduce(
-      tbb::blocked_range<Index>(0, level.mesh.cornerCount(), kCornersPerTask), 0.0,
+      tbb::blocked_range<Index>(0, level.mesh.cornerCount(), kCornersPerTask), half,
       [&](const auto& range, double largest) {
         std::vector<Vec3d> ring;
         for (Index c = range.begin(); c != range.end(); ++c)
