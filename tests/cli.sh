@@ -166,6 +166,20 @@ for format in obj ply off; do
 done
 "$vox" subdivide "$scenes/cube.obj" -o - --levels 2 2>/dev/null | cmp -s - cube.obj || fail "OBJ on stdout"
 
+# Smoothing.
+expect 0 '64 vertices' subdivide "$scenes/sheet.toml" -o sheet.obj --levels 1 --boundary free
+expect 0 'sheet.obj: 96 vertices' subdivide "$scenes/sheet.toml" -o sheet.obj --levels 1 --force
+echo 0 >first.txt
+echo '6 7 # two of the interior' >vertices.txt
+expect 0 '25 vertices' subdivide "$scenes/sheet.toml" -o sheet.obj --levels 0 --force --interpolate boundary --interpolate-vertices vertices.txt
+expect 3 'vertex 0 cannot be interpolated: it is on the boundary' subdivide "$scenes/sheet.toml" -o out.obj --levels 0 --interpolate-vertices first.txt
+expect 0 'active voxels' convert "$scenes/sheet.toml" -o sheet.vdb --dim 32 --interpolate both
+expect 2 'one of extend, free' convert good.obj -o out.vdb --boundary round
+expect 2 'one of none, interior' convert good.obj -o out.vdb --interpolate all
+expect 2 'free boundary cannot be interpolated' convert good.obj -o out.vdb --boundary free --interpolate both
+echo '1 two' >wrong.txt
+expect 3 'wrong.txt:1: ' convert good.obj -o out.vdb --interpolate-vertices wrong.txt
+
 # What needs care at the edges.
 expect 2 'out.obj: .*must end in .vdb' convert good.obj -o out.obj
 cp "$scenes/cube.obj" cube2.obj

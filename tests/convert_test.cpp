@@ -101,7 +101,10 @@ TEST_CASE("removing a voxel that the surface needs opens a leak that the check s
 }
 
 TEST_CASE("an open sheet has no hole from one side to the other", "[pipeline][property]") {
-  const Conversion conversion = convert(sceneOf(test::sheet(5, 4)), maskAt(40));
+  const BoundaryRule rule = GENERATE(BoundaryRule::kFree, BoundaryRule::kExtend);
+  ConvertOptions options = maskAt(40);
+  options.smoothing.boundary = rule;
+  const Conversion conversion = convert(sceneOf(test::sheet(5, 4)), options);
   // Plain Doo-Sabin ends half a face inside the boundary; look at the columns within.
   const double unit = 1 / conversion.report.voxelSize;
   const auto at = [&](double x) { return static_cast<int>(x * unit); };
@@ -222,11 +225,37 @@ TEST_CASE("the resolution that a refusal advises works", "[pipeline][error]") {
   }
 }
 
-TEST_CASE("an open mesh is converted with a warning", "[pipeline]") {
+TEST_CASE("an open mesh is converted with a warning if it may shrink", "[pipeline]") {
   CHECK(convert(sceneOf(test::cube()), maskAt(8)).report.warnings.empty());
-  const auto warnings = convert(sceneOf(test::sheet(3, 3)), maskAt(8)).report.warnings;
+  CHECK(convert(sceneOf(test::sheet(3, 3)), maskAt(8)).report.warnings.empty());
+  ConvertOptions options = maskAt(8);
+  options.smoothing.boundary = BoundaryRule::kFree;
+  const auto warnings = convert(sceneOf(test::sheet(3, 3)), options).report.warnings;
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Contains("object is open: it has 1 boundary loop"));
+}
+
+TEST_CASE("an interpolating surface passes through the corners of the cube", "[pipeline]") {
+  ConvertOptions options = maskAt(64);
+  options.smoothing.interpolate = Interpolate::kInterior;
+  const Conversion conversion = convert(sceneOf(test::cube()), options);
+  CHECK(maskOf(conversion).tree().isValueOn({32, 32, 32}));
+  CHECK(maskOf(conversion).tree().isValueOn({-32, 32, -32}));
+  CHECK(conversion.report.objects[0].interpolation.lift.vertices == 8);
+}
+
+TEST_CASE("an extended sheet reaches its boundary, and its corners if interpolated", "[pipeline]") {
+  PolygonMesh flat = test::sheet(4, 4);
+  for (Vec3d& p : flat.points) p.z() = 0;
+  ConvertOptions options = maskAt(40);
+  const auto isOn = [&](int i, int j) {
+    return maskOf(convert(sceneOf(flat), options)).tree().isValueOn({i, j, 0});
+  };
+  CHECK(isOn(20, 0));
+  CHECK_FALSE(isOn(0, 0));
+  options.smoothing.interpolate = Interpolate::kBoundary;
+  CHECK(isOn(0, 0));
+  CHECK(isOn(40, 40));
 }
 
 TEST_CASE("contradictory arrays are refused, not followed", "[pipeline][error]") {

@@ -37,13 +37,18 @@ Eigen::Vector3d quadraticBasis(double t) {
   return {0.5 * (1 - t) * (1 - t), 0.5 + t * (1 - t), 0.5 * t * t};
 }
 
+/// Level 0 of plain Doo-Sabin, which leaves boundaries free.
+SubdivisionLevel freeLevel(const PolygonMesh& mesh) {
+  return baseLevel(mesh, BoundaryRule::kFree);
+}
+
 }  // namespace
 
 TEST_CASE("quad weights are 9/16, 3/16, 1/16, 3/16", "[subdivide][golden]") {
   PolygonMesh quad = test::regularPolygon(4);
   for (Vec3d& p : quad.points) p.setZero();
   quad.points[0].x() = 1;  // the weights of corner 0
-  const auto image = imageVertices(quad);
+  const auto image = imageVertices(freeLevel(quad));
   CHECK(image[0].x() == 9.0 / 16);
   CHECK(image[1].x() == 3.0 / 16);
   CHECK(image[2].x() == 1.0 / 16);
@@ -56,7 +61,7 @@ TEST_CASE("weights of a face are those of the paper and sum to one", "[subdivide
     PolygonMesh polygon = test::regularPolygon(n);
     for (Vec3d& p : polygon.points) p = Vec3d(0, 1, 0);
     polygon.points[0].x() = 1;
-    const auto image = imageVertices(polygon);
+    const auto image = imageVertices(freeLevel(polygon));
     for (int i = 0; i < n; ++i) {
       const double cosine = std::cos(2 * std::numbers::pi * i / n);
       const double weight = i == 0 ? (n + 5) / (4.0 * n) : (3 + 2 * cosine) / (4.0 * n);
@@ -80,7 +85,7 @@ TEST_CASE("the first image vertices of a unit square are its points pulled in by
           "[subdivide][golden]") {
   const PolygonMesh square =
       test::meshOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
-  const auto image = imageVertices(square);
+  const auto image = imageVertices(freeLevel(square));
   CHECK(image[0] == Vec3d(0.25, 0.25, 0));
   CHECK(image[2] == Vec3d(0.75, 0.75, 0));
 }
@@ -89,7 +94,7 @@ TEST_CASE("every level is an oriented manifold of the same Euler characteristic"
           "[subdivide][property]") {
   for (const auto& shape : test::shapes()) {
     CAPTURE(shape.name);
-    SubdivisionLevel level = baseLevel(shape.mesh);
+    SubdivisionLevel level = freeLevel(shape.mesh);
     // Subdivision parts the two tetrahedra that share a point of the bow tie.
     const auto expected = shape.name == "bow tie" ? 4 : eulerCharacteristic(level);
     for (int k = 1; k <= 3; ++k) {
@@ -109,7 +114,7 @@ TEST_CASE("every level is an oriented manifold of the same Euler characteristic"
 TEST_CASE("each step equals the formula applied corner by corner", "[subdivide][property]") {
   for (const auto& shape : test::shapes()) {
     CAPTURE(shape.name);
-    SubdivisionLevel level = baseLevel(shape.mesh);
+    SubdivisionLevel level = freeLevel(shape.mesh);
     for (int k = 0; k < 2; ++k) {
       const PolygonMesh expected = test::naiveDooSabin(level.mesh);
       level = subdivide(std::move(level), 1);
@@ -127,7 +132,7 @@ TEST_CASE("each step equals the formula applied corner by corner", "[subdivide][
 TEST_CASE("the F-face of any face keeps its centroid", "[subdivide][property]") {
   for (const auto& shape : test::shapes()) {
     CAPTURE(shape.name);
-    SubdivisionLevel level = baseLevel(shape.mesh);
+    SubdivisionLevel level = freeLevel(shape.mesh);
     for (int k = 0; k < 3; ++k) {
       const SubdivisionLevel child = subdivide(level, 1);
       double worst = 0;
@@ -188,7 +193,7 @@ TEST_CASE("a regular grid tends to the tensor-product quadratic B-spline",
   // centroid of a face of any level lies on it. Face (i, j) of the grid has its centroid at the
   // corner (i, j) of the patches, where the surface is the mean of its four points.
   const int levels = 4;
-  const auto refined = subdivide(baseLevel(grid), levels);
+  const auto refined = subdivide(freeLevel(grid), levels);
   const int scale = 1 << levels;
   double worst = 0;
   int compared = 0;

@@ -21,11 +21,11 @@ Scene sceneOf(const std::vector<PolygonMesh>& meshes) {
 
 TEST_CASE("refining a scene joins its objects into one mesh", "[pipeline]") {
   const Scene scene = sceneOf({test::cube(), test::tetrahedron()});
-  const PolygonMesh mesh = refine(scene, 1, {});
+  const PolygonMesh mesh = refine(scene, 1, {}, {}).mesh;
   CHECK(mesh.pointCount() == 24 + 12);
   CHECK(mesh.faceCount() == 26 + 14);
   CHECK(mesh.face(26)[0] == 24);
-  CHECK(refine(scene, 0, {}).points == [] {
+  CHECK(refine(scene, 0, {}, {}).mesh.points == [] {
     auto points = test::cube().points;
     const auto more = test::tetrahedron().points;
     points.insert(points.end(), more.begin(), more.end());
@@ -34,32 +34,70 @@ TEST_CASE("refining a scene joins its objects into one mesh", "[pipeline]") {
 }
 
 TEST_CASE("level 0 takes meshes that could not be subdivided", "[pipeline]") {
-  CHECK(refine(sceneOf({test::moebius(6)}), 0, {}).faceCount() == 6);
-  CHECK_THROWS_AS(refine(sceneOf({test::moebius(6)}), 1, {}), MeshError);
+  CHECK(refine(sceneOf({test::moebius(6)}), 0, {}, {}).mesh.faceCount() == 6);
+  CHECK_THROWS_AS(refine(sceneOf({test::moebius(6)}), 1, {}, {}), MeshError);
+}
+
+TEST_CASE("level 0 is the control mesh when vertices are interpolated", "[pipeline]") {
+  SmoothingOptions smoothing;
+  smoothing.interpolate = Interpolate::kInterior;
+  const Scene scene = sceneOf({test::cube()});
+  const PolygonMesh controls = refine(scene, 0, smoothing, {}).mesh;
+  const PolygonMesh refined = refine(scene, 1, smoothing, {}).mesh;
+  for (Index v = 0; v < 8; ++v) {
+    CHECK(controls.points[v].norm() > test::cube().points[v].norm());
+    CHECK((test::faceCentroid(refined, 6 + 12 + v).cwiseAbs() - Vec3d::Ones()).norm() < 1e-12);
+  }
+  SceneObject own = scene.objects[0];
+  own.smoothing = smoothing;
+  Scene inScene;
+  inScene.objects = {own};
+  CHECK(refine(inScene, 0, {}, {}).mesh.points == controls.points);
+  SmoothingOptions none;
+  none.interpolate = Interpolate::kNothing;
+  CHECK(refine(inScene, 0, none, {}).mesh.points == test::cube().points);
+}
+
+TEST_CASE("what cannot be interpolated is said", "[pipeline][error]") {
+  SmoothingOptions smoothing;
+  smoothing.interpolate = Interpolate::kInterior;
+  CHECK(refine(sceneOf({test::cube()}), 0, smoothing, {}).warnings.empty());
+  const auto warnings = refine(sceneOf({test::valenceTwo()}), 0, smoothing, {}).warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("1 vertex could not be interpolated"));
+
+  smoothing.interpolate = Interpolate::kBoth;
+  smoothing.boundary = BoundaryRule::kFree;
+  CHECK_THROWS_AS(refine(sceneOf({test::sheet(3, 3)}), 1, smoothing, {}), UsageError);
+  smoothing = {};
+  smoothing.interpolatedVertices = std::vector<Index>{0};
+  CHECK_THROWS_AS(refine(sceneOf({test::cube(), test::cube()}), 1, smoothing, {}), UsageError);
+  CHECK_THROWS_WITH(refine(sceneOf({test::sheet(2, 2)}), 1, smoothing, {}),
+                    Contains("vertex 0 cannot be interpolated: it is on the boundary"));
 }
 
 TEST_CASE("an error names file, object and element", "[pipeline][error]") {
   Scene scene = sceneOf({test::cube(), test::moebius(6)});
   scene.files = {"two.toml"};
-  CHECK_THROWS_WITH(refine(scene, 1, {}),
+  CHECK_THROWS_WITH(refine(scene, 1, {}, {}),
                     Contains("two.toml: object 2: faces") && Contains("counted from 0"));
 }
 
 TEST_CASE("refinement keeps to its memory limit", "[pipeline][error]") {
   RunOptions options;
   options.maxMemory = std::uint64_t{1} << 26;
-  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), 25, options), LimitError);
+  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), 25, {}, options), LimitError);
   const std::vector<PolygonMesh> many(40, test::cube());
-  CHECK_NOTHROW(refine(sceneOf({test::cube()}), 6, options));
-  CHECK_THROWS_AS(refine(sceneOf(many), 6, options), LimitError);
+  CHECK_NOTHROW(refine(sceneOf({test::cube()}), 6, {}, options));
+  CHECK_THROWS_AS(refine(sceneOf(many), 6, {}, options), LimitError);
 }
 
 TEST_CASE("impossible requests for refinement are refused", "[pipeline][error]") {
-  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), -1, {}), UsageError);
+  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), -1, {}, {}), UsageError);
   RunOptions options;
   options.threads = -3;
-  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), 1, options), UsageError);
+  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), 1, {}, options), UsageError);
   PolygonMesh wrong = test::cube();
   wrong.faceVertices[5] = 50000000;
-  CHECK_THROWS_AS(refine(sceneOf({wrong}), 1, {}), MeshError);
+  CHECK_THROWS_AS(refine(sceneOf({wrong}), 1, {}, {}), MeshError);
 }

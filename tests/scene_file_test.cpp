@@ -1,6 +1,7 @@
 #include "libvox/io/scene_file.h"
 
 #include "libvox/core/error.h"
+#include "libvox/io/read_indices.h"
 #include "libvox/mesh/validate.h"
 #include "tests/shapes.h"
 #include "tests/temporary_folder.h"
@@ -82,12 +83,45 @@ TEST_CASE("a mirrored object keeps its faces outward", "[scene]") {
   CHECK(scene.objects[0].mesh.faceVertices == std::vector<Index>{0, 2, 1});
 }
 
+TEST_CASE("an object says how it is smoothed", "[scene]") {
+  const Scene scene = read("[[object]]\n" + kTriangle +
+                           "boundary = 'free'\ninterpolate = 'both'\n"
+                           "interpolate_vertices = [2, 0]\n[[object]]\n" +
+                           kTriangle);
+  const SmoothingOptions& first = scene.objects[0].smoothing;
+  CHECK(first.boundary == BoundaryRule::kFree);
+  CHECK(first.interpolate == Interpolate::kBoth);
+  CHECK(first.interpolatedVertices == std::vector<Index>{2, 0});
+  CHECK_FALSE(scene.objects[1].smoothing.boundary.has_value());
+
+  // One choice: whoever names what to interpolate replaces all of it.
+  const SmoothingOptions none = {{}, Interpolate::kNothing, {}};
+  CHECK(overriding(none, first).boundary == BoundaryRule::kFree);
+  CHECK(overriding(none, first).interpolate == Interpolate::kNothing);
+  CHECK_FALSE(overriding(none, first).interpolatedVertices.has_value());
+  CHECK(overriding({}, first).interpolatedVertices == std::vector<Index>{2, 0});
+}
+
+TEST_CASE("a list of indices is read with its comments, and refused by line", "[scene]") {
+  const test::TemporaryFolder folder;
+  CHECK(readIndices(folder.write("a.txt", "3 1\n# four\n  4\t7 # and seven\n")) ==
+        std::vector<Index>{3, 1, 4, 7});
+  CHECK_THROWS_WITH(readIndices(folder.write("b.txt", "3\n1.5\n")), Contains("b.txt:2: "));
+  CHECK_THROWS_WITH(readIndices(folder.write("c.txt", "3\n\n-1\n")),
+                    Contains("c.txt:3: ") && Contains("not -1"));
+  CHECK_THROWS_AS(readIndices(folder / "missing.txt"), InputError);
+}
+
 TEST_CASE("what a scene gets wrong is named with line and column", "[scene][error]") {
   const std::string object = "[[object]]\n" + kTriangle;
   checkRefused("[convert]\nsize = 3\n", ":2:1:", "unknown key 'size' in [convert]");
   checkRefused("colour = 1\n", ":1:1:", "unknown key 'colour'");
   checkRefused(object + "smooth = true\n", ":4:1:", "unknown key 'smooth' in [[object]]");
   checkRefused(object + "transform = { move = [0, 0, 0] }", ":4:15:", "unknown key 'move'");
+  checkRefused(object + "boundary = 'round'\n", ":4:12:", "one of extend, free, not 'round'");
+  checkRefused(object + "interpolate = 'all'\n", ":4:15:", "none, interior, boundary, both");
+  checkRefused(object + "interpolate = 1\n", ":4:15:", "must be a string");
+  checkRefused(object + "interpolate_vertices = [3]\n", ":4:25:", "between 0 and 2");
   checkRefused("[convert]\ndim = 0\n", ":2:7:", "dim must lie between 1 and");
   checkRefused("[convert]\ndim = 'big'\n", ":2:7:", "dim must be an integer");
   checkRefused("[convert]\nvoxel_size = -1\n", ":2:14:", "voxel_size must be positive");

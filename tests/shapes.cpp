@@ -196,6 +196,81 @@ const std::vector<Shape>& shapes() {
   return all;
 }
 
+PolygonMesh withoutFaces(const PolygonMesh& mesh, const std::vector<Index>& gone) {
+  PolygonMesh out;
+  out.points = mesh.points;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+    if (std::find(gone.begin(), gone.end(), f) == gone.end()) out.addFace(mesh.face(f));
+  return out;
+}
+
+PolygonMesh openFan(int faces, int sides) {
+  PolygonMesh mesh;
+  mesh.points.emplace_back(0, 0, 0.3);
+  const double step = 1.7 * std::numbers::pi / faces;
+  const auto spoke = [&](double angle) {
+    mesh.points.emplace_back(std::cos(angle), std::sin(angle), 0.2 * std::sin(3 * angle));
+    return mesh.pointCount() - 1;
+  };
+  Index from = spoke(0);
+  for (int f = 0; f < faces; ++f) {
+    std::vector<Index> face = {0, from};
+    for (int i = 1; i <= sides - 3; ++i) {
+      const Index extra = spoke(step * (f + i / (sides - 2.0)));
+      mesh.points[extra] *= 1.4;
+      face.push_back(extra);
+    }
+    from = spoke(step * (f + 1));
+    face.push_back(from);
+    mesh.addFace(face);
+  }
+  return mesh;
+}
+
+PolygonMesh tube(int around, int along) {
+  PolygonMesh mesh;
+  for (int j = 0; j <= along; ++j)
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * std::numbers::pi * i / around;
+      const double r = 1 + 0.3 * std::sin(1.1 * j + angle);
+      mesh.points.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.7 * j);
+    }
+  const auto at = [&](int i, int j) { return static_cast<Index>(j * around + i % around); };
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < around; ++i)
+      mesh.addFace(std::vector<Index>{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+  return mesh;
+}
+
+namespace {
+
+std::vector<Shape> makeOpenShapes() {
+  std::vector<Shape> all;
+  for (int n = 3; n <= 8; ++n)
+    all.push_back({"polygon " + std::to_string(n), regularPolygon(n), false});
+  for (int faces = 1; faces <= 7; ++faces)
+    for (int sides = 3; sides <= 8; ++sides)
+      all.push_back({"fan " + std::to_string(faces) + " of " + std::to_string(sides),
+                     openFan(faces, sides), false});
+  all.push_back({"sheet", sheet(4, 3), false});
+  all.push_back({"strip of quads", sheet(5, 1), false});
+  all.push_back({"tube", tube(7, 3), false});
+  all.push_back({"short tube", tube(3, 1), false});
+  all.push_back({"open dodecahedron", withoutFaces(dodecahedron(), {0}), false});
+  all.push_back({"dodecahedron of two holes", withoutFaces(dodecahedron(), {0, 10}), false});
+  all.push_back(
+      {"torus of holes", withoutFaces(torusGrid(9, 7), {0, 4, 16, 17, 30, 45, 60}), false});
+  all.push_back({"cap", withoutFaces(pyramid(7), {0}), false});
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Shape>& openShapes() {
+  static const std::vector<Shape> all = makeOpenShapes();
+  return all;
+}
+
 PolygonMesh shuffled(const PolygonMesh& mesh, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<Index> newName(mesh.pointCount());

@@ -32,6 +32,15 @@ struct Shape {
 };
 const std::vector<Shape>& shapes();
 
+/// Without the faces that have an index in `gone`.
+PolygonMesh withoutFaces(const PolygonMesh& mesh, const std::vector<Index>& gone);
+
+PolygonMesh openFan(int faces, int sides);  ///< n-gons around one boundary vertex
+PolygonMesh tube(int around, int along);    ///< quads around a circle, both ends open
+
+/// Open shapes of every face size 3..8 and boundary valence 1..7, some with several loops.
+const std::vector<Shape>& openShapes();
+
 /// The same mesh with points and faces renumbered and faces rotated, at random.
 PolygonMesh shuffled(const PolygonMesh& mesh, std::uint32_t seed);
 

@@ -28,9 +28,9 @@ TEST_CASE("the largest child span is that of the faces of the next level",
           "[subdivide][property]") {
   for (const auto& shape : test::shapes()) {
     CAPTURE(shape.name);
-    SubdivisionLevel level = baseLevel(shape.mesh);
+    SubdivisionLevel level = baseLevel(shape.mesh, BoundaryRule::kFree);
     for (int k = 0; k < 3; ++k) {
-      const auto image = imageVertices(level.mesh);
+      const auto image = imageVertices(level);
       const double predicted = largestChildSpan(level, image);
       level = nextLevel(level, image);
       CHECK(predicted == test::naiveLargestSpan(level.mesh));

@@ -88,7 +88,7 @@ BENCHMARK(cgalDooSabin)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void largestSpan(benchmark::State& state) {
   const SubdivisionLevel level = subdivide(baseLevel(torus()), kLevels - 1);
-  const auto image = imageVertices(level.mesh);
+  const auto image = imageVertices(level);
   for (auto _ : state) benchmark::DoNotOptimize(largestChildSpan(level, image));
   countVertices(state, image.size());
 }

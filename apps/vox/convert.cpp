@@ -18,9 +18,20 @@ struct Options {
   std::string input;
   std::string output;
   ResolutionOptions resolution;
+  SmoothingArguments smoothing;
   std::string grids;
   CommonOptions common;
 };
+
+void sayInterpolation(const CommonOptions& common, const ObjectReport& object) {
+  const InterpolationReport& done = object.interpolation;
+  if (done.boundaryVertices + done.lift.vertices == 0) return;
+  std::ostringstream text;
+  text << object.name << ": interpolates " << done.boundaryVertices << " boundary and "
+       << done.lift.vertices << " interior vertices, " << done.lift.iterations
+       << " iterations, off by at most " << done.lift.residual << " voxels";
+  say(common, text.str());
+}
 
 void printReport(const Options& options, const ConvertReport& report) {
   for (const std::string& warning : report.warnings) say(options.common, "warning: " + warning);
@@ -34,6 +45,7 @@ void printReport(const Options& options, const ConvertReport& report) {
     text << object.name << ": " << object.inputFaces << " faces, " << object.levels << " levels, "
          << object.vertices << " vertices, largest face " << object.largestSpan << " voxels";
     say(options.common, text.str());
+    sayInterpolation(options.common, object);
   }
   std::ostringstream times;
   times << "subdivide " << report.subdivideSeconds << " s, voxelize " << report.voxelizeSeconds
@@ -57,6 +69,7 @@ int run(const Options& options) {
   ConvertOptions convertOptions;
   convertOptions.dim = options.resolution.dim;
   convertOptions.voxelSize = options.resolution.voxelSize;
+  convertOptions.smoothing = parseSmoothing(options.smoothing);
   convertOptions.run = options.common.run;
   if (!options.grids.empty()) convertOptions.grids = parseGrids(options.grids);
 
@@ -81,6 +94,7 @@ Action addConvert(CLI::App& app) {
       ->type_name("OUT.vdb")
       ->group("Output");
   addResolutionOptions(*command, options->resolution);
+  addSmoothingOptions(*command, options->smoothing);
   command
       ->add_option(
           "--grids", options->grids,

@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/io/atomic_file.h"
+#include "libvox/io/read_indices.h"
 
 #include <algorithm>
 #include <cctype>
@@ -78,6 +79,47 @@ void addResolutionOptions(CLI::App& command, ResolutionOptions& resolution) {
       ->excludes(dim)
       ->type_name("S")
       ->group("Resolution");
+}
+
+void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments) {
+  command
+      .add_option("--boundary", arguments.boundary,
+                  "End an open surface at a smooth curve along its boundary (extend), or let it "
+                  "shrink from there (free) (default: the scene's, or extend)")
+      ->type_name("extend|free")
+      ->group("Smoothing");
+  command
+      .add_option("--interpolate", arguments.interpolate,
+                  "Vertices that the surface passes through: none, interior, boundary or both "
+                  "(default: the scene's, or none)")
+      ->type_name("WHICH")
+      ->group("Smoothing");
+  command
+      .add_option(
+          "--interpolate-vertices", arguments.vertexFile,
+          "Text file of further interior vertices to pass through, counted from 0; # starts "
+          "a comment")
+      ->type_name("FILE")
+      ->group("Smoothing");
+}
+
+SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
+  SmoothingOptions smoothing;
+  if (!arguments.boundary.empty()) {
+    smoothing.boundary = boundaryRuleNamed(arguments.boundary);
+    if (!smoothing.boundary)
+      throw UsageError("--boundary must be one of " + allBoundaryRuleNames() + ", not '" +
+                       arguments.boundary + "'");
+  }
+  if (!arguments.interpolate.empty()) {
+    smoothing.interpolate = interpolateNamed(arguments.interpolate);
+    if (!smoothing.interpolate)
+      throw UsageError("--interpolate must be one of " + allInterpolateNames() + ", not '" +
+                       arguments.interpolate + "'");
+  }
+  if (!arguments.vertexFile.empty())
+    smoothing.interpolatedVertices = readIndices(arguments.vertexFile);
+  return smoothing;
 }
 
 std::vector<GridKind> parseGrids(const std::string& names) {

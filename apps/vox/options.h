@@ -2,6 +2,7 @@
 
 #include "libvox/grid/grid_kind.h"
 #include "libvox/io/scene_file.h"
+#include "libvox/mesh/smoothing.h"
 #include "libvox/pipeline/run_options.h"
 
 #include <CLI/CLI.hpp>
@@ -27,6 +28,18 @@ struct ResolutionOptions {
   std::optional<double> voxelSize;
 };
 void addResolutionOptions(CLI::App& command, ResolutionOptions& resolution);
+
+/// --boundary, --interpolate and --interpolate-vertices, as typed.
+struct SmoothingArguments {
+  std::string boundary;
+  std::string interpolate;
+  std::string vertexFile;
+};
+void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments);
+
+/// What they mean; reads the file of vertices.
+/// @throws UsageError, InputError
+SmoothingOptions parseSmoothing(const SmoothingArguments& arguments);
 
 /// "density,mask" as grids.
 /// @throws UsageError  an unknown name

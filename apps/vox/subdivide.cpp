@@ -16,6 +16,7 @@ struct Options {
   std::string input;
   std::string output;
   int levels = 0;
+  SmoothingArguments smoothing;
   CommonOptions common;
 };
 
@@ -31,10 +32,13 @@ void write(const Options& options, const PolygonMesh& mesh) {
 
 int run(const Options& options) {
   if (!isStdout(options.output)) meshFormatFor(options.output);
+  const SmoothingOptions smoothing = parseSmoothing(options.smoothing);
   const Scene scene = readScene(options.input);
   requireOutput(options.output, options.common, scene);
-  const PolygonMesh mesh = refine(scene, options.levels, options.common.run);
+  const Refinement refined = refine(scene, options.levels, smoothing, options.common.run);
+  const PolygonMesh& mesh = refined.mesh;
   write(options, mesh);
+  for (const std::string& warning : refined.warnings) say(options.common, "warning: " + warning);
   say(options.common, options.output + ": " + std::to_string(mesh.pointCount()) + " vertices, " +
                           std::to_string(mesh.faceCount()) + " faces");
   return 0;
@@ -55,11 +59,15 @@ Action addSubdivide(CLI::App& app) {
       ->group("Output");
   constexpr int kMostLevels = 30;
   command
-      ->add_option("--levels", options->levels, "Doo-Sabin steps; 0 writes the mesh as it was read")
+      ->add_option(
+          "--levels", options->levels,
+          "Doo-Sabin steps; 0 writes the control mesh: the input, its vertices moved where the "
+          "surface is to pass through them")
       ->required()
       ->check(CLI::Range(0, kMostLevels))
       ->type_name("K")
       ->group("Output");
+  addSmoothingOptions(*command, options->smoothing);
   addCommonOptions(*command, options->common);
   return [options] { return run(*options); };
 }

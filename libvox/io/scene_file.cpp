@@ -219,13 +219,45 @@ PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& sce
   text.fail(table, "an object needs either mesh, or points and faces");
 }
 
+std::vector<Index> readVertexList(const SceneText& text, const toml::node& node, Index pointCount) {
+  std::vector<Index> vertices;
+  for (const toml::node& vertex : requireArray(text, node, "interpolate_vertices"))
+    vertices.push_back(static_cast<Index>(
+        requireInteger(text, vertex, "a vertex (0-based)", 0, std::int64_t{pointCount} - 1)));
+  return vertices;
+}
+
+SmoothingOptions readSmoothing(const SceneText& text, const toml::table& table, Index pointCount) {
+  SmoothingOptions smoothing;
+  if (const auto* node = table.get("boundary")) {
+    const std::string name = requireString(text, *node, "boundary");
+    smoothing.boundary = boundaryRuleNamed(name);
+    if (!smoothing.boundary)
+      text.fail(*node,
+                "boundary must be one of " + allBoundaryRuleNames() + ", not " + quote(name));
+  }
+  if (const auto* node = table.get("interpolate")) {
+    const std::string name = requireString(text, *node, "interpolate");
+    smoothing.interpolate = interpolateNamed(name);
+    if (!smoothing.interpolate)
+      text.fail(*node,
+                "interpolate must be one of " + allInterpolateNames() + ", not " + quote(name));
+  }
+  if (const auto* node = table.get("interpolate_vertices"))
+    smoothing.interpolatedVertices = readVertexList(text, *node, pointCount);
+  return smoothing;
+}
+
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(text, table, "[[object]]", {"name", "mesh", "points", "faces", "transform"});
+  requireKnownKeys(text, table, "[[object]]",
+                   {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
+                    "interpolate_vertices"});
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
   if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");
   object.mesh = readObjectMesh(text, table, scene);
   if (const auto* transform = table.get("transform")) transformMesh(text, *transform, object.mesh);
+  object.smoothing = readSmoothing(text, table, object.mesh.pointCount());
   return object;
 }
 

@@ -2,6 +2,7 @@
 
 #include "libvox/grid/grid_kind.h"
 #include "libvox/mesh/polygon_mesh.h"
+#include "libvox/mesh/smoothing.h"
 
 #include <filesystem>
 #include <optional>
@@ -13,6 +14,7 @@ namespace vox {
 struct SceneObject {
   std::string name;
   PolygonMesh mesh;  ///< world units, the object's transform applied
+  SmoothingOptions smoothing = {};
 };
 
 /// What to convert, and how, as far as the scene says.

@@ -84,7 +84,7 @@ int levelsToGo(double span) {
 double bytesAtDepth(const SubdivisionLevel& level, int levels) {
   constexpr double kBytesPerPoint = sizeof(Vec3d);
   constexpr double kBytesPerVertex = kBytesPerPoint + 4 * 4 * sizeof(Index);  // with four corners
-  const double points = level.mesh.cornerCount() * std::pow(4.0, levels);
+  const double points = static_cast<double>(nextPointCount(level)) * std::pow(4.0, levels);
   return points * kBytesPerPoint + points / 4 * kBytesPerVertex;
 }
 
@@ -114,7 +114,7 @@ std::vector<Vec3d> verticesAtVoxelSize(SubdivisionLevel level, double voxelSize,
   for (;;) {
     const std::uint64_t held = bytesOf(level) + bytesOfImage(level);
     budget.require(held, "subdivision", kAdvice);
-    std::vector<Vec3d> image = imageVertices(level.mesh);
+    std::vector<Vec3d> image = imageVertices(level);
     ++report.levels;
     report.vertices = image.size();
     report.largestSpan = largestChildSpan(level, image);
@@ -129,11 +129,15 @@ std::vector<Vec3d> verticesAtVoxelSize(SubdivisionLevel level, double voxelSize,
 void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, ConvertReport& report) {
   const std::size_t loops = boundaryLoops(level.mesh, level.adjacency).size();
   if (loops == 0) return;
-  std::string warning = name + " is open: it has " + std::to_string(loops) + " boundary " +
-                        (loops == 1 ? "loop" : "loops") + ", from which it shrinks";
-  if (loops >= level.mesh.faceCount())
-    warning += " to dots: faces are neighbours only where they name the same vertices";
-  report.warnings.push_back(warning);
+  constexpr const char* kWhy = ": faces are neighbours only where they name the same vertices";
+  const bool separate = loops >= level.mesh.faceCount();
+  if (level.boundary == BoundaryStage::kPlain)
+    report.warnings.push_back(name + " is open: it has " + std::to_string(loops) + " boundary " +
+                              (loops == 1 ? "loop" : "loops") + ", from which it shrinks" +
+                              (separate ? std::string(" to dots") + kWhy : ""));
+  else if (separate && loops > 1)
+    report.warnings.push_back(name + " falls apart into " + std::to_string(loops) +
+                              " separate faces, each smoothed by itself" + kWhy);
 }
 
 // Memory of grids
@@ -169,6 +173,11 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
     text << "voxel-size=" << transform.voxelSize;
   else
     text << "dim=" << options.dim.value_or(scene.dim.value_or(kDefaultDim));
+  const SmoothingOptions& smoothing = options.smoothing;
+  if (smoothing.boundary) text << " boundary=" << boundaryRuleName(*smoothing.boundary);
+  if (smoothing.interpolate) text << " interpolate=" << interpolateName(*smoothing.interpolate);
+  if (smoothing.interpolatedVertices)
+    text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
   return text.str();
 }
 
@@ -200,9 +209,21 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mas
   return densityGrid(*mask);
 }
 
-openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const GridTransform& transform,
-                                      double longestSide, MemoryBudget& budget,
-                                      ConvertReport& report) {
+/// Notes what preparation did, and refuses vertices that it moved out of the range of the grid.
+void notePreparation(const PreparedObject& prepared, const GridTransform& transform,
+                     ObjectReport& part, ConvertReport& report) {
+  part.interpolation = prepared.interpolation;
+  report.warnings.insert(report.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
+  warnOfBoundary(part.name, prepared.base, report);
+  Box box = usedBox(prepared.base.mesh);
+  box.low *= transform.voxelSize;
+  box.high *= transform.voxelSize;
+  requireInRange(box, transform);
+}
+
+openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& options,
+                                      const GridTransform& transform, double longestSide,
+                                      MemoryBudget& budget, ConvertReport& report) {
   auto mask = openvdb::MaskGrid::create();
   mask->setName(gridName(GridKind::kMask));
   mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
@@ -213,11 +234,11 @@ openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const GridTransform& t
     std::vector<Vec3d> vertices;
     {
       const StageTimer timer(report.subdivideSeconds);
-      SubdivisionLevel base =
-          baseLevelOf(scene, object, inIndexSpace(object.mesh, transform), budget);
-      warnOfBoundary(object.name, base, report);
-      vertices =
-          verticesAtVoxelSize(std::move(base), transform.voxelSize, longestSide, budget, part);
+      PreparedObject prepared =
+          prepare(scene, object, inIndexSpace(object.mesh, transform), options.smoothing, budget);
+      notePreparation(prepared, transform, part, report);
+      vertices = verticesAtVoxelSize(std::move(prepared.base), transform.voxelSize, longestSide,
+                                     budget, part);
     }
     const StageTimer timer(report.voxelizeSeconds);
     mark(vertices, *mask, budget);
@@ -237,7 +258,7 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options) {
   const GridTransform transform = chooseTransform(box, scene, options);
   result.report.voxelSize = transform.voxelSize;
   const openvdb::MaskGrid::Ptr mask =
-      convertObjects(scene, transform, box.longestSide(), budget, result.report);
+      convertObjects(scene, options, transform, box.longestSide(), budget, result.report);
 
   const openvdb::MetaMap metadata = describe(scene, options, transform, result.report);
   const std::vector<GridKind> kinds =

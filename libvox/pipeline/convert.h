@@ -2,7 +2,9 @@
 
 #include "libvox/grid/grid_kind.h"
 #include "libvox/io/scene_file.h"
+#include "libvox/mesh/smoothing.h"
 #include "libvox/pipeline/run_options.h"
+#include "libvox/prepare/interpolate.h"
 
 #include <openvdb/version.h>
 
@@ -28,6 +30,7 @@ namespace vox {
 struct ConvertOptions {
   std::optional<int> dim;           ///< voxels along the longest side of the input; default 256
   std::optional<double> voxelSize;  ///< world units; overrides dim
+  SmoothingOptions smoothing;       ///< default: boundary extended, nothing interpolated
   std::optional<std::vector<GridKind>> grids;  ///< default: density
   RunOptions run;
 };
@@ -38,9 +41,10 @@ inline constexpr int kDefaultDim = 256;
 struct ObjectReport {
   std::string name;
   std::uint64_t inputFaces = 0;
-  int levels = 0;              ///< Doo-Sabin steps
-  std::uint64_t vertices = 0;  ///< vertices of the last level, each rounded to a voxel
-  double largestSpan = 0;      ///< longest L-inf face span of the last level, voxels
+  int levels = 0;                     ///< Doo-Sabin steps
+  std::uint64_t vertices = 0;         ///< vertices of the last level, each rounded to a voxel
+  double largestSpan = 0;             ///< longest L-inf face span of the last level, voxels
+  InterpolationReport interpolation;  ///< its residual in voxels
 };
 
 struct ConvertReport {
@@ -62,10 +66,10 @@ struct Conversion {
 /// criterion, so the active voxels 6-separate the two sides of each surface. Grids carry the
 /// metadata of DESIGN section 9. The result does not depend on the number of threads.
 ///
-/// @throws UsageError  dim, voxel size or number of threads is nonsense
+/// @throws UsageError  dim, voxel size, number of threads or smoothing is nonsense
 /// @throws InputError  the input has no extent and no voxel size is given
-/// @throws MeshError   an object is not an oriented manifold; the message names file, object and
-///   element
+/// @throws MeshError   an object is not an oriented manifold, or a vertex cannot be interpolated;
+///   the message names file, object and element
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid
 Conversion convert(const Scene& scene, const ConvertOptions& options);
 

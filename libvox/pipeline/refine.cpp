@@ -27,11 +27,45 @@ auto namingObject(const Scene& scene, const SceneObject& object, Work&& work) {
   }
 }
 
+bool interpolates(const SmoothingOptions& smoothing) {
+  return smoothing.interpolate.value_or(Interpolate::kNothing) != Interpolate::kNothing ||
+         (smoothing.interpolatedVertices && !smoothing.interpolatedVertices->empty());
+}
+
+void requireConsistent(const Scene& scene, const SceneObject& object,
+                       const SmoothingOptions& smoothing, const SmoothingOptions& own) {
+  const bool boundary =
+      own.interpolate == Interpolate::kBoundary || own.interpolate == Interpolate::kBoth;
+  if (boundary && own.boundary == BoundaryRule::kFree)
+    throw UsageError(object.name +
+                     ": a free boundary cannot be interpolated; use --boundary extend, or "
+                     "--interpolate none or interior");
+  if (smoothing.interpolatedVertices && scene.objects.size() > 1)
+    throw UsageError("--interpolate-vertices needs a scene of one object, not " +
+                     std::to_string(scene.objects.size()) +
+                     "; use interpolate_vertices in the scene");
+}
+
+/// Peak of interpolation: mostly one value per corner, twice, and the vectors of the solver.
+std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
+  constexpr std::uint64_t kPerCorner = sizeof(Vec3d) + sizeof(Index);
+  constexpr std::uint64_t kPerVertex = 3 * sizeof(Vec3d) + 8 * sizeof(double);
+  return mesh.cornerCount() * kPerCorner + mesh.pointCount() * kPerVertex;
+}
+
+void warnOfLeftOut(const std::string& name, const InterpolationReport& report,
+                   std::vector<std::string>& warnings) {
+  if (report.leftOut == 0) return;
+  warnings.push_back(name + ": " + std::to_string(report.leftOut) +
+                     (report.leftOut == 1 ? " vertex" : " vertices") +
+                     " could not be interpolated, having two faces only or several fans of faces");
+}
+
 SubdivisionLevel subdivided(SubdivisionLevel level, int levels, const MemoryBudget& budget) {
   for (int k = 1; k <= levels; ++k) {
     budget.require(bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level),
                    "level " + std::to_string(k), kAdvice);
-    level = nextLevel(level, imageVertices(level.mesh));
+    level = nextLevel(level, imageVertices(level));
   }
   return level;
 }
@@ -52,17 +86,21 @@ void append(PolygonMesh& all, PolygonMesh part) {
     all.faceOffsets.push_back(firstCorner + part.faceOffsets[f + 1]);
 }
 
-PolygonMesh refineAll(const Scene& scene, int levels, const RunOptions& options) {
+Refinement refineAll(const Scene& scene, int levels, const SmoothingOptions& smoothing,
+                     const RunOptions& options) {
   MemoryBudget budget(options.maxMemory);
-  PolygonMesh all;
+  Refinement all;
   for (const SceneObject& object : scene.objects) {
     budget.take(bytesOf(object.mesh), "the input", kAdvice);
     PolygonMesh part = object.mesh;
-    if (levels > 0)
-      part = subdivided(baseLevelOf(scene, object, std::move(part), budget), levels, budget).mesh;
+    if (levels > 0 || interpolates(overriding(smoothing, object.smoothing))) {
+      PreparedObject prepared = prepare(scene, object, std::move(part), smoothing, budget);
+      part = subdivided(std::move(prepared.base), levels, budget).mesh;
+      all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
+    }
     // A vector that grows holds up to twice what it needs while it moves.
     budget.take(2 * bytesOf(part), "the refined mesh", kAdvice);
-    append(all, std::move(part));
+    append(all.mesh, std::move(part));
   }
   return all;
 }
@@ -79,11 +117,12 @@ std::uint64_t bytesOf(const SubdivisionLevel& level) {
 }
 
 std::uint64_t bytesOfImage(const SubdivisionLevel& level) {
-  return std::uint64_t{level.mesh.cornerCount()} * sizeof(Vec3d);
+  return nextPointCount(level) * sizeof(Vec3d);
 }
 
 std::uint64_t bytesOfNextTopology(const SubdivisionLevel& level) {
-  constexpr std::uint64_t kTables = 4 * sizeof(Index);  // edge, ring, offset, slot per corner
+  // Edge, ring, offset, slot per corner; offset and name per boundary corner.
+  constexpr std::uint64_t kTables = 6 * sizeof(Index);
   constexpr std::uint64_t kCorner = 4 * sizeof(Index);  // vertex, twin, face; offsets, rounded up
   return level.mesh.cornerCount() * kTables + nextCornerCount(level) * kCorner;
 }
@@ -93,18 +132,33 @@ void requireValidScene(const Scene& scene) {
     namingObject(scene, object, [&] { requireValidArrays(object.mesh); });
 }
 
-SubdivisionLevel baseLevelOf(const Scene& scene, const SceneObject& object, PolygonMesh mesh,
-                             const MemoryBudget& budget) {
+PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMesh mesh,
+                       const SmoothingOptions& smoothing, const MemoryBudget& budget) {
+  const SmoothingOptions own = overriding(smoothing, object.smoothing);
+  requireConsistent(scene, object, smoothing, own);
   constexpr std::uint64_t kPerCorner = 2 * sizeof(EdgeCorner) + 4 * sizeof(Index);
   budget.require(bytesOf(mesh) + mesh.cornerCount() * kPerCorner, "finding neighbours",
                  "raise --max-memory");
-  return namingObject(scene, object, [&] { return baseLevel(std::move(mesh)); });
+  PreparedObject prepared;
+  SubdivisionLevel& base = prepared.base;
+  namingObject(scene, object, [&] {
+    base = baseLevel(std::move(mesh), own.boundary.value_or(BoundaryRule::kExtend));
+    if (!interpolates(own)) return;
+    budget.require(bytesOf(base) + bytesOfInterpolation(base.mesh), "interpolation",
+                   "raise --max-memory");
+    base.mesh = interpolate(
+        std::move(base.mesh), base.adjacency, own.interpolate.value_or(Interpolate::kNothing),
+        own.interpolatedVertices.value_or(std::vector<Index>()), prepared.interpolation);
+  });
+  warnOfLeftOut(object.name, prepared.interpolation, prepared.warnings);
+  return prepared;
 }
 
-PolygonMesh refine(const Scene& scene, int levels, const RunOptions& options) {
+Refinement refine(const Scene& scene, int levels, const SmoothingOptions& smoothing,
+                  const RunOptions& options) {
   if (levels < 0) throw UsageError("--levels must be 0 or more, not " + std::to_string(levels));
   requireValidScene(scene);
-  return onThreads(options.threads, [&] { return refineAll(scene, levels, options); });
+  return onThreads(options.threads, [&] { return refineAll(scene, levels, smoothing, options); });
 }
 
 }  // namespace vox

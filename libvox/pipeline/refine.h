@@ -3,26 +3,48 @@
 #include "libvox/core/memory.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/polygon_mesh.h"
+#include "libvox/mesh/smoothing.h"
 #include "libvox/pipeline/run_options.h"
+#include "libvox/prepare/interpolate.h"
 #include "libvox/subdivide/doo_sabin.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace vox {
 
-/// All objects of a scene as one mesh, after K Doo-Sabin steps; K = 0 joins them as they are.
-/// @throws UsageError  levels < 0
-/// @throws MeshError   an object has contradictory arrays or, for K > 0, is not an oriented
-///   manifold; the message names file, object and element
-/// @throws LimitError  not enough memory, or more elements than fit in 32 bits
-PolygonMesh refine(const Scene& scene, int levels, const RunOptions& options);
+struct Refinement {
+  PolygonMesh mesh;
+  std::vector<std::string> warnings;  ///< one line each: what the user may not expect
+};
 
-/// Level 0 of an object. `mesh` is its mesh, in world or index space.
-/// @throws MeshError   not an oriented manifold; the message names file, object and element
+/// All objects of a scene as one mesh, after K Doo-Sabin steps; K = 0 gives the control meshes:
+/// where nothing is interpolated, the objects as they are. What `smoothing` sets goes before what
+/// the objects say.
+/// @throws UsageError  levels < 0; as prepare
+/// @throws MeshError   an object has contradictory arrays or, for K > 0, cannot be prepared; the
+///   message names file, object and element
+/// @throws LimitError  not enough memory, or more elements than fit in 32 bits
+Refinement refine(const Scene& scene, int levels, const SmoothingOptions& smoothing,
+                  const RunOptions& options);
+
+/// Level 0 of an object, ready to subdivide.
+struct PreparedObject {
+  SubdivisionLevel base;
+  InterpolationReport interpolation;
+  std::vector<std::string> warnings;
+};
+
+/// Prepares an object. `mesh` is its mesh, in world or index space; `smoothing` goes before what
+/// the object says.
+/// @throws UsageError  the boundary is to be interpolated but free; vertices to interpolate are
+///   given for more than one object at once
+/// @throws MeshError   not an oriented manifold, or a vertex that cannot be interpolated; the
+///   message names file, object and element
 /// @throws LimitError  not enough memory
-SubdivisionLevel baseLevelOf(const Scene& scene, const SceneObject& object, PolygonMesh mesh,
-                             const MemoryBudget& budget);
+PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMesh mesh,
+                       const SmoothingOptions& smoothing, const MemoryBudget& budget);
 
 /// Checks the arrays of every object (requireValidArrays), naming file and object.
 void requireValidScene(const Scene& scene);

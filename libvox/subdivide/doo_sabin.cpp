@@ -1,4 +1,4 @@
-// Doo-Sabin subdivision of a whole mesh as loops over corners.
+// Doo-Sabin subdivision of a whole mesh: the faces of the next level as loops over corners.
 // D. Doo, M. Sabin, Behaviour of recursive division surfaces near extraordinary points, 1978;
 // Cohen, Kaufman & Wang 1994, section 2.1.
 
@@ -7,12 +7,9 @@
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
 #include "libvox/mesh/validate.h"
+#include "libvox/subdivide/strip.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -20,63 +17,19 @@ namespace vox {
 namespace {
 
 constexpr Index kCornersPerTask = 4096;
-constexpr Index kFacesPerTask = 1024;
-
-/// Cosine and sine of 2 pi i / n. Through long double, so that the rounded value does not depend
-/// on which of its double-precision kernels the C library picks for the processor.
-struct UnitRoot {
-  double cosine;
-  double sine;
-};
-UnitRoot unitRoot(Index i, Index n) {
-  const long double angle = 2 * std::numbers::pi_v<long double> * i / n;
-  return {static_cast<double>(std::cos(angle)), static_cast<double>(std::sin(angle))};
-}
-
-std::vector<UnitRoot> unitRoots(Index n) {
-  std::vector<UnitRoot> roots(n);
-  for (Index i = 0; i < n; ++i) roots[i] = unitRoot(i, n);
-  return roots;
-}
-
-/// Weights 9/16, 3/16, 1/16, 3/16: exact in binary, and the same bits for either winding.
-void imageOfQuad(const PolygonMesh& mesh, Index begin, std::vector<Vec3d>& image) {
-  std::array<const Vec3d*, 4> p;
-  for (Index i = 0; i < 4; ++i) p[i] = &mesh.points[mesh.faceVertices[begin + i]];
-  for (Index i = 0; i < 4; ++i)
-    image[begin + i] =
-        (9.0 * *p[i] + 3.0 * (*p[(i + 1) % 4] + *p[(i + 3) % 4]) + *p[(i + 2) % 4]) / 16.0;
-}
-
-/// With centroid m and first harmonic (A, B) of the face, in O(n):
-/// U_i = V_i / 4 + 3/4 m + 1/(2n) (A cos t_i + B sin t_i),  t_i = 2 pi i / n.
-void imageOfPolygon(const PolygonMesh& mesh, Index begin, std::span<const UnitRoot> roots,
-                    std::vector<Vec3d>& image) {
-  const auto n = static_cast<Index>(roots.size());
-  const auto point = [&](Index i) -> const Vec3d& {
-    return mesh.points[mesh.faceVertices[begin + i]];
-  };
-  Vec3d sum = Vec3d::Zero();
-  Vec3d sumCosine = Vec3d::Zero();
-  Vec3d sumSine = Vec3d::Zero();
-  for (Index i = 0; i < n; ++i) {
-    sum += point(i);
-    sumCosine += roots[i].cosine * point(i);
-    sumSine += roots[i].sine * point(i);
-  }
-  for (Index i = 0; i < n; ++i)
-    image[begin + i] = 0.25 * point(i) + (0.75 / n) * sum +
-                       (0.5 / n) * (roots[i].cosine * sumCosine + roots[i].sine * sumSine);
-}
 
 /// Where the children of the corners of one level stand in the next.
 struct ChildLayout {
   Index edgeFaces = 0;            ///< number of E-faces
-  Index vertexFaces = 0;          ///< number of V-faces
+  Index vertexFaces = 0;          ///< number of whole V-faces
+  std::vector<Index> boundary;    ///< boundary corners that get half faces; k names both faces
   std::vector<Index> edge;        ///< per edge leader: number of its E-face
-  std::vector<Index> ring;        ///< per ring leader: number of its V-face, else kNone
+  std::vector<Index> ring;        ///< per ring leader: number of its V-face, else kNone; half ones
+                                  ///< come last and are led by their boundary corner
   std::vector<Index> ringOffset;  ///< per V-face, + 1: first slot of the V-faces' corners
   std::vector<Index> ringSlot;    ///< per corner: its slot among the V-faces' corners, or kNone
+
+  Index halfFaces() const { return static_cast<Index>(boundary.size()); }
 };
 
 std::vector<Index> ledRingSizes(const SubdivisionLevel& level) {
@@ -95,8 +48,21 @@ void placeRingSlots(const SubdivisionLevel& level, ChildLayout& layout) {
     do {
       layout.ringSlot[k] = slot++;
       k = nextAroundVertex(level.mesh, level.adjacency, k);
-    } while (k != c);
+    } while (k != kNone && k != c);
   });
+}
+
+/// The half V-face of a boundary corner: its fan of corners and two points on the boundary.
+void placeHalfVertexFaces(const SubdivisionLevel& level, ChildLayout& layout) {
+  layout.boundary = boundaryCorners(level.adjacency);
+  for (Index k = 0; k < layout.halfFaces(); ++k) {
+    layout.ring[layout.boundary[k]] = layout.vertexFaces + k;
+    Index size = 2;
+    for (Index c = layout.boundary[k]; c != kNone;
+         c = nextAroundVertex(level.mesh, level.adjacency, c))
+      ++size;
+    layout.ringOffset.push_back(layout.ringOffset.back() + size);
+  }
 }
 
 ChildLayout layOutChildren(const SubdivisionLevel& level) {
@@ -111,6 +77,7 @@ ChildLayout layOutChildren(const SubdivisionLevel& level) {
     layout.ring[c] = valence < 3 ? kNone : layout.vertexFaces++;
     if (valence >= 3) layout.ringOffset.push_back(layout.ringOffset.back() + valence);
   }
+  if (level.boundary == BoundaryStage::kExtend) placeHalfVertexFaces(level, layout);
   placeRingSlots(level, layout);
   return layout;
 }
@@ -121,6 +88,11 @@ ChildLayout layOutChildren(const SubdivisionLevel& level) {
 /// this order, the F-face edge c, the V-face of v, the F-face edge t, the V-face of w. The V-face
 /// edge that starts at corner x leads to y = nextAroundVertex(x) and faces the E-face that runs
 /// from y to x.
+///
+/// The half E-face of a boundary edge c = v->w is [next c, c, Mv, Mw] with Chaikin points M; its
+/// edges face the F-face edge c, the half V-face of v, nothing, the half V-face of w. The half
+/// V-face of a fan c1 .. cm is [c1 .. cm, Mend, Mstart], where Mend is near the vertex on the
+/// boundary edge that arrives there and Mstart on the one that leaves, the edge c1.
 class ChildTopology {
  public:
   ChildTopology(const SubdivisionLevel& level, const ChildLayout& layout, SubdivisionLevel& child)
@@ -129,22 +101,29 @@ class ChildTopology {
         layout_(layout),
         child_(child),
         firstEdgeCorner_(mesh_.cornerCount()),
-        firstRingCorner_(firstEdgeCorner_ + 4 * layout.edgeFaces) {}
+        firstRingCorner_(firstEdgeCorner_ + 4 * layout.edgeFaces),
+        firstHalfEdgeCorner_(firstRingCorner_ + layout.ringOffset.back()) {}
 
   void writeFaceOffsets() {
     auto& offsets = child_.mesh.faceOffsets;
-    offsets.resize(std::size_t{mesh_.faceCount()} + layout_.edgeFaces + layout_.vertexFaces + 1);
+    const Index firstHalfEdgeFace = faceOfRing(layout_.vertexFaces + layout_.halfFaces());
+    offsets.resize(std::size_t{firstHalfEdgeFace} + layout_.halfFaces() + 1);
     std::copy(mesh_.faceOffsets.begin(), mesh_.faceOffsets.end(), offsets.begin());
     for (Index e = 0; e < layout_.edgeFaces; ++e)
       offsets[mesh_.faceCount() + e] = firstEdgeCorner_ + 4 * e;
-    for (Index v = 0; v <= layout_.vertexFaces; ++v)
-      offsets[mesh_.faceCount() + layout_.edgeFaces + v] = firstRingCorner_ + layout_.ringOffset[v];
+    for (Index v = 0; v < layout_.vertexFaces + layout_.halfFaces(); ++v)
+      offsets[faceOfRing(v)] = firstRingCorner_ + layout_.ringOffset[v];
+    for (Index k = 0; k <= layout_.halfFaces(); ++k)
+      offsets[firstHalfEdgeFace + k] = halfEdgeCorner(k, 0);
   }
 
   void writeFaceCorner(Index c) {
     const Index t = adjacency_.twin[c];
     Index twin = kNone;
-    if (t != kNone) twin = c < t ? edgeCorner(c, 0) : edgeCorner(t, 2);
+    if (t != kNone)
+      twin = c < t ? edgeCorner(c, 0) : edgeCorner(t, 2);
+    else if (layout_.ring[c] != kNone)
+      twin = halfEdgeCorner(halfFaceOf(c), 0);
     set(c, c, adjacency_.cornerFace[c], twin);
   }
 
@@ -160,15 +139,51 @@ class ChildTopology {
   }
 
   void writeVertexFace(Index leader) {
-    const Index face = mesh_.faceCount() + layout_.edgeFaces + layout_.ring[leader];
+    const Index face = faceOfRing(layout_.ring[leader]);
     Index x = leader;
     do {
-      set(firstRingCorner_ + layout_.ringSlot[x], x, face, edgeFacing(x));
+      set(ringCorner(x), x, face, edgeFacing(x));
       x = nextAroundVertex(mesh_, adjacency_, x);
     } while (x != leader);
   }
 
+  void writeHalfVertexFace(Index k) {
+    const Index face = faceOfRing(layout_.vertexFaces + k);
+    Index x = layout_.boundary[k];
+    for (Index y = nextAroundVertex(mesh_, adjacency_, x); y != kNone;
+         y = nextAroundVertex(mesh_, adjacency_, x)) {
+      set(ringCorner(x), x, face, edgeFacing(x));
+      x = y;
+    }
+    const Index arriving = halfFaceOf(previousCorner(mesh_, adjacency_, x));
+    set(ringCorner(x), x, face, halfEdgeCorner(arriving, 3));
+    set(ringCorner(x) + 1, boundaryPoint(arriving) + 1, face, kNone);
+    set(ringCorner(x) + 2, boundaryPoint(k), face, halfEdgeCorner(k, 1));
+  }
+
+  void writeHalfEdgeFace(Index k) {
+    const Index c = layout_.boundary[k];
+    const Index nextC = nextCorner(mesh_, adjacency_, c);
+    const Index face = faceOfRing(layout_.vertexFaces + layout_.halfFaces()) + k;
+    const Index afterRing = firstRingCorner_ + layout_.ringOffset[layout_.vertexFaces + k + 1];
+    set(halfEdgeCorner(k, 0), nextC, face, c);
+    set(halfEdgeCorner(k, 1), c, face, afterRing - 1);
+    set(halfEdgeCorner(k, 2), boundaryPoint(k), face, kNone);
+    set(halfEdgeCorner(k, 3), boundaryPoint(k) + 1, face, ringCorner(nextC));
+  }
+
  private:
+  Index faceOfRing(Index ring) const { return mesh_.faceCount() + layout_.edgeFaces + ring; }
+  Index ringCorner(Index x) const { return firstRingCorner_ + layout_.ringSlot[x]; }
+
+  Index halfFaceOf(Index boundaryCorner) const {
+    return layout_.ring[boundaryCorner] - layout_.vertexFaces;
+  }
+  Index halfEdgeCorner(Index k, Index i) const { return firstHalfEdgeCorner_ + 4 * k + i; }
+
+  /// First of the two Chaikin points of boundary edge k.
+  Index boundaryPoint(Index k) const { return mesh_.cornerCount() + 2 * k; }
+
   Index edgeCorner(Index leader, Index i) const {
     return firstEdgeCorner_ + 4 * layout_.edge[leader] + i;
   }
@@ -182,7 +197,7 @@ class ChildTopology {
   /// What the E-face edge into corner x faces across the vertex: the V-face, or at a vertex with
   /// two faces the other E-face, or nothing at the boundary.
   Index acrossVertex(Index x) const {
-    if (layout_.ringSlot[x] != kNone) return firstRingCorner_ + layout_.ringSlot[x];
+    if (layout_.ringSlot[x] != kNone) return ringCorner(x);
     const Index y = nextAroundVertex(mesh_, adjacency_, x);
     const bool valenceTwo = y != kNone && nextAroundVertex(mesh_, adjacency_, y) == x;
     return valenceTwo ? edgeFacing(y) : kNone;
@@ -200,6 +215,7 @@ class ChildTopology {
   SubdivisionLevel& child_;
   Index firstEdgeCorner_;
   Index firstRingCorner_;
+  Index firstHalfEdgeCorner_;
 };
 
 void requireFits(std::uint64_t corners) {
@@ -210,29 +226,15 @@ void requireFits(std::uint64_t corners) {
 
 }  // namespace
 
-SubdivisionLevel baseLevel(PolygonMesh mesh) {
+SubdivisionLevel baseLevel(PolygonMesh mesh, BoundaryRule rule) {
   requireValidArrays(mesh);
-  SubdivisionLevel level{std::move(mesh), {}};
+  SubdivisionLevel level{std::move(mesh), {}, BoundaryStage::kPlain};
   level.adjacency = buildAdjacency(level.mesh);
   requireManifold(level.mesh, level.adjacency);
+  const auto& twin = level.adjacency.twin;
+  const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
+  if (open && rule == BoundaryRule::kExtend) level.boundary = BoundaryStage::kExtend;
   return level;
-}
-
-std::vector<Vec3d> imageVertices(const PolygonMesh& mesh) {
-  std::vector<Vec3d> image(mesh.cornerCount());
-  forParts(mesh.faceCount(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<UnitRoot> roots;
-    for (Index f = static_cast<Index>(begin); f != end; ++f) {
-      const Index n = mesh.faceSize(f);
-      if (n == 4) {
-        imageOfQuad(mesh, mesh.faceOffsets[f], image);
-        continue;
-      }
-      if (roots.size() != n) roots = unitRoots(n);
-      imageOfPolygon(mesh, mesh.faceOffsets[f], roots, image);
-    }
-  });
-  return image;
 }
 
 Index ledRingSize(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
@@ -248,11 +250,13 @@ Index ledRingSize(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) 
 }
 
 std::uint64_t nextCornerCount(const SubdivisionLevel& level) {
-  // Each interior edge has two corners and makes an E-face of four; each V-face corner is a corner
-  // of a closed ring, so the corner count bounds their number.
+  // Each interior edge has two corners and makes an E-face of four; each corner is in at most one
+  // V-face. A boundary edge makes a half E-face of four and two more corners of a half V-face.
   std::uint64_t interior = 0;
   for (const Index t : level.adjacency.twin) interior += t != kNone;
-  return level.mesh.cornerCount() + 2 * interior + level.mesh.cornerCount();
+  const std::uint64_t corners = level.mesh.cornerCount();
+  const bool extends = level.boundary == BoundaryStage::kExtend;
+  return 2 * corners + 2 * interior + (extends ? 6 * (corners - interior) : 0);
 }
 
 SubdivisionLevel nextLevel(const SubdivisionLevel& level, std::vector<Vec3d> image) {
@@ -260,9 +264,10 @@ SubdivisionLevel nextLevel(const SubdivisionLevel& level, std::vector<Vec3d> ima
   const ChildLayout layout = layOutChildren(level);
   const Index corners = level.mesh.cornerCount();
   const std::size_t childCorners =
-      std::size_t{corners} + 4 * std::size_t{layout.edgeFaces} + layout.ringOffset.back();
+      corners + 4 * (std::size_t{layout.edgeFaces} + layout.halfFaces()) + layout.ringOffset.back();
 
   SubdivisionLevel child;
+  if (level.boundary != BoundaryStage::kPlain) child.boundary = BoundaryStage::kStrips;
   child.mesh.points = std::move(image);
   child.mesh.faceVertices.resize(childCorners);
   child.adjacency.twin.resize(childCorners);
@@ -273,13 +278,17 @@ SubdivisionLevel nextLevel(const SubdivisionLevel& level, std::vector<Vec3d> ima
   forEach(corners, kCornersPerTask, [&](Index c) {
     topology.writeFaceCorner(c);
     if (layout.edge[c] != kNone) topology.writeEdgeFace(c);
-    if (layout.ring[c] != kNone) topology.writeVertexFace(c);
+    if (layout.ring[c] < layout.vertexFaces) topology.writeVertexFace(c);
+  });
+  forEach(layout.halfFaces(), kCornersPerTask, [&](Index k) {
+    topology.writeHalfVertexFace(k);
+    topology.writeHalfEdgeFace(k);
   });
   return child;
 }
 
 SubdivisionLevel subdivide(SubdivisionLevel level, int levels) {
-  for (int k = 0; k < levels; ++k) level = nextLevel(level, imageVertices(level.mesh));
+  for (int k = 0; k < levels; ++k) level = nextLevel(level, imageVertices(level));
   return level;
 }
 

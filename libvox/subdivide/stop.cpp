@@ -3,6 +3,7 @@
 #include "libvox/subdivide/stop.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/subdivide/strip.h"
 
 #include <algorithm>
 #include <array>
@@ -46,6 +47,38 @@ double vertexFaceSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& i
   return faceSpan(ring);
 }
 
+/// Of the half E-face and the half V-face of boundary corner k.
+double halfFaceSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image,
+                    const std::vector<Index>& boundary, std::size_t k, std::vector<Vec3d>& ring) {
+  const PolygonMesh& mesh = level.mesh;
+  const Adjacency& adjacency = level.adjacency;
+  const Index c = boundary[k];
+  const Vec3d* const points = image.data() + mesh.cornerCount();
+  ring.clear();
+  Index last = c;
+  for (Index x = c; x != kNone; x = nextAroundVertex(mesh, adjacency, x)) {
+    ring.push_back(image[x]);
+    last = x;
+  }
+  const Index arriving = previousCorner(mesh, adjacency, last);
+  const auto j = std::lower_bound(boundary.begin(), boundary.end(), arriving) - boundary.begin();
+  ring.push_back(points[2 * j + 1]);
+  ring.push_back(points[2 * k]);
+  return std::max(faceSpan(ring), quadSpan(image[nextCorner(mesh, adjacency, c)], image[c],
+                                           points[2 * k], points[2 * k + 1]));
+}
+
+double largestHalfFaceSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image) {
+  const std::vector<Index> boundary = boundaryCorners(level.adjacency);
+  return maxOverParts(boundary.size(), kCornersPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<Vec3d> ring;
+    double largest = 0;
+    for (std::size_t k = begin; k != end; ++k)
+      largest = std::max(largest, halfFaceSpan(level, image, boundary, k, ring));
+    return largest;
+  });
+}
+
 }  // namespace
 
 double faceSpan(std::span<const Vec3d> corners) {
@@ -60,7 +93,9 @@ double faceSpan(std::span<const Vec3d> corners) {
 }
 
 double largestChildSpan(const SubdivisionLevel& level, const std::vector<Vec3d>& image) {
-  return maxOverParts(
+  const double half =
+      level.boundary == BoundaryStage::kExtend ? largestHalfFaceSpan(level, image) : 0;
+  const double whole = maxOverParts(
       level.mesh.cornerCount(), kCornersPerTask, [&](std::size_t begin, std::size_t end) {
         std::vector<Vec3d> ring;
         double largest = 0;
@@ -69,6 +104,7 @@ double largestChildSpan(const SubdivisionLevel& level, const std::vector<Vec3d>&
                               vertexFaceSpan(level, image, c, ring)});
         return largest;
       });
+  return std::max(half, whole);
 }
 
 }  // namespace vox

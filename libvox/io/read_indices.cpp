@@ -1,0 +1,26 @@
+// Lists of element numbers.
+
+#include "libvox/io/read_indices.h"
+
+#include "libvox/io/input_file.h"
+#include "libvox/io/text_scanner.h"
+
+#include <string>
+
+namespace vox {
+
+std::vector<Index> readIndices(const std::filesystem::path& file) {
+  const std::string content = contentsOf(file);
+  TextScanner text(content, file.string(), {.hashComments = true});
+  std::vector<Index> indices;
+  for (auto token = text.tokenOnAnyLine(); !token.empty(); token = text.tokenOnAnyLine()) {
+    const std::int64_t index = text.integer(token);
+    if (index < 0 || index >= std::int64_t{kNone})
+      text.fail("an index must lie between 0 and " + std::to_string(kNone - 1) + ", not " +
+                std::to_string(index));
+    indices.push_back(static_cast<Index>(index));
+  }
+  return indices;
+}
+
+}  // namespace vox

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "libvox/core/types.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace vox {
+
+/// Reads a text file of 0-based indices, separated by blanks and line ends; # starts a comment.
+/// @throws InputError  unreadable, or not an index; the message names file and line
+std::vector<Index> readIndices(const std::filesystem::path& file);
+
+}  // namespace vox

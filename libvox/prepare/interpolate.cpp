@@ -1,0 +1,52 @@
+// Which vertices the surface passes through, and by which of the two methods.
+
+#include "libvox/prepare/interpolate.h"
+
+#include "libvox/mesh/vertex_kind.h"
+#include "libvox/prepare/boundary.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace vox {
+namespace {
+
+/// The vertices to lift: all interior ones if asked for, and the prescribed ones that boundary
+/// interpolation does not serve.
+std::vector<Index> verticesToLift(const PolygonMesh& mesh, const std::vector<VertexKind>& kinds,
+                                  bool interior, bool boundary, std::span<const Index> prescribed) {
+  std::vector<Index> vertices;
+  for (const Index v : prescribed) {
+    const bool served = boundary && v < mesh.pointCount() && kinds[v] == VertexKind::kBoundary;
+    if (!served) vertices.push_back(v);
+  }
+  for (Index v = 0; interior && v < mesh.pointCount(); ++v)
+    if (kinds[v] == VertexKind::kInterior) vertices.push_back(v);
+  return vertices;
+}
+
+Index countOf(const std::vector<VertexKind>& kinds, VertexKind kind) {
+  return static_cast<Index>(std::count(kinds.begin(), kinds.end(), kind));
+}
+
+}  // namespace
+
+PolygonMesh interpolate(PolygonMesh mesh, const Adjacency& adjacency, Interpolate which,
+                        std::span<const Index> prescribed, InterpolationReport& report) {
+  report = {};
+  const bool interior = which == Interpolate::kInterior || which == Interpolate::kBoth;
+  const bool boundary = which == Interpolate::kBoundary || which == Interpolate::kBoth;
+  const std::vector<VertexKind> kinds = vertexKinds(mesh, adjacency);
+  if (interior)
+    report.leftOut = countOf(kinds, VertexKind::kTwoFaces) + countOf(kinds, VertexKind::kBowTie);
+  if (boundary) {
+    report.boundaryVertices = countOf(kinds, VertexKind::kBoundary);
+    mesh = interpolateBoundary(std::move(mesh), adjacency);
+  }
+  const std::vector<Index> vertices = verticesToLift(mesh, kinds, interior, boundary, prescribed);
+  if (vertices.empty()) return mesh;
+  return lift(std::move(mesh), adjacency, vertices, report.lift);
+}
+
+}  // namespace vox
