@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -83,13 +84,13 @@ double maxOverParts(std::size_t count, std::size_t grain, Body&& body) {
   return largest;
 }
 
-/// Sorts a vector, in parallel; in order of the elements' <, which must be total.
-template <class Element>
-void sortInParallel(std::vector<Element>& elements) {
+/// Sorts a vector, in parallel, by an order that must be total.
+template <class Element, class Less = std::less<Element>>
+void sortInParallel(std::vector<Element>& elements, Less less = {}) {
 #ifdef __SANITIZE_THREAD__
-  std::sort(elements.begin(), elements.end());  // the parts of TBB's sort cannot tell their order
+  std::sort(elements.begin(), elements.end(), less);  // the parts of TBB's sort hide their order
 #else
-  tbb::parallel_sort(elements.begin(), elements.end());
+  tbb::parallel_sort(elements.begin(), elements.end(), less);
 #endif
 }
 

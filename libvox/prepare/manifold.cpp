@@ -1,0 +1,229 @@
+// Sheets by union-find over faces (with a bit that says which are wound against each other), fans
+// by union-find over corners.
+// Cutting along singular edges and vertices: A. Gueziec, G. Taubin, F. Lazarus, W. Horn, Cutting
+// and stitching: converting sets of polygons to manifold surfaces, 2001.
+
+#include "libvox/prepare/manifold.h"
+
+#include "libvox/core/error.h"
+#include "libvox/prepare/face_order.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace vox {
+namespace {
+
+constexpr std::size_t kMostSheets = 32;  // candidate pairs grow with its square
+
+/// Sheets of faces; each face knows whether it is wound against the root of its sheet.
+class SheetForest {
+ public:
+  explicit SheetForest(Index faceCount)
+      : parent_(faceCount), size_(faceCount, 1), against_(faceCount, 0) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  struct Place {
+    Index root;
+    bool against;
+  };
+  Place find(Index f) const {
+    bool against = false;
+    for (; parent_[f] != f; f = parent_[f]) against ^= against_[f] != 0;
+    return {f, against};
+  }
+
+  /// `against`: f and g run through their common edge in the same direction.
+  void unite(Index f, Index g, bool against) {
+    Place a = find(f);
+    Place b = find(g);
+    if (a.root == b.root) return;
+    if (size_[a.root] < size_[b.root]) std::swap(a, b);
+    parent_[b.root] = a.root;  // by size: no path is longer than log2 F
+    size_[a.root] += size_[b.root];
+    against_[b.root] = a.against ^ b.against ^ against;
+  }
+
+ private:
+  std::vector<Index> parent_;
+  std::vector<Index> size_;
+  std::vector<std::uint8_t> against_;
+};
+
+/// Newell normals; bitwise opposite for opposite windings.
+std::vector<Vec3d> faceNormals(const PolygonMesh& mesh) {
+  PolygonMesh canonical = mesh;
+  const auto reversed = canonicalizeFaces(canonical);
+  std::vector<Vec3d> normals(mesh.faceCount(), Vec3d::Zero());
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto face = canonical.face(f);
+    const Vec3d& origin = mesh.points[face[0]];
+    for (std::size_t i = 1; i + 1 < face.size(); ++i)
+      normals[f] += (mesh.points[face[i]] - origin).cross(Vec3d(mesh.points[face[i + 1]] - origin));
+    if (reversed[f]) normals[f] = -normals[f];
+  }
+  return normals;
+}
+
+/// Joins the faces of one crowded edge.
+class EdgePairing {
+ public:
+  EdgePairing(const PolygonMesh& mesh, Adjacency& adjacency)
+      : mesh_(mesh), adjacency_(adjacency), normals_(faceNormals(mesh)), sheets_(mesh.faceCount()) {
+    for (Index c = 0; c < mesh.cornerCount(); ++c)
+      if (adjacency.twin[c] != kNone && c < adjacency.twin[c]) noteJoint(c, adjacency.twin[c]);
+  }
+
+  void pair(std::span<const EdgeCorner> edge) {
+    if (edge.size() > kMostSheets) return;
+    auto candidates = candidatesOf(edge);
+    std::sort(candidates.begin(), candidates.end());
+    for (const Candidate& candidate : candidates) {
+      const auto [second, cosine, a, b] = candidate;
+      if (adjacency_.twin[a] != kNone || adjacency_.twin[b] != kNone || makesOneSided(a, b))
+        continue;
+      adjacency_.twin[a] = b;
+      adjacency_.twin[b] = a;
+      noteJoint(a, b);
+    }
+  }
+
+ private:
+  /// Not of one sheet; cosine of the angle between the faces, -1 when flat; the corners.
+  using Candidate = std::tuple<bool, double, Index, Index>;
+
+  std::vector<Candidate> candidatesOf(std::span<const EdgeCorner> edge) const {
+    std::vector<Vec3d> inward;
+    for (const EdgeCorner& side : edge) inward.push_back(inwardDirection(side.corner));
+    std::vector<Candidate> candidates;
+    for (std::size_t j = 1; j < edge.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i) {
+        const double cosine = inward[i].dot(inward[j]);
+        candidates.emplace_back(!ofOneSheet(edge[i].corner, edge[j].corner),
+                                std::isfinite(cosine) ? cosine : 0, edge[i].corner, edge[j].corner);
+      }
+    return candidates;
+  }
+
+  /// Unit vector from the edge of c into its face; 0 where the face has no area.
+  Vec3d inwardDirection(Index c) const {
+    const Index next = nextCorner(mesh_, adjacency_, c);
+    const Vec3d along =
+        mesh_.points[mesh_.faceVertices[next]] - mesh_.points[mesh_.faceVertices[c]];
+    return normals_[faceOf(c)].stableNormalized().cross(along.stableNormalized());
+  }
+
+  Index faceOf(Index c) const { return adjacency_.cornerFace[c]; }
+  bool sameDirection(Index a, Index b) const {
+    return mesh_.faceVertices[a] == mesh_.faceVertices[b];
+  }
+  void noteJoint(Index a, Index b) { sheets_.unite(faceOf(a), faceOf(b), sameDirection(a, b)); }
+  bool ofOneSheet(Index a, Index b) const {
+    return sheets_.find(faceOf(a)).root == sheets_.find(faceOf(b)).root;
+  }
+  bool makesOneSided(Index a, Index b) const {
+    const auto f = sheets_.find(faceOf(a));
+    const auto g = sheets_.find(faceOf(b));
+    return f.root == g.root && (f.against != g.against) != sameDirection(a, b);
+  }
+
+  const PolygonMesh& mesh_;
+  Adjacency& adjacency_;
+  std::vector<Vec3d> normals_;
+  SheetForest sheets_;
+};
+
+void pairCrowdedEdges(const PolygonMesh& mesh, std::span<const EdgeCorner> edges,
+                      Adjacency& adjacency) {
+  EdgePairing pairing(mesh, adjacency);
+  forEachEdge(edges, [&](std::span<const EdgeCorner> edge) {
+    if (edge.size() > 2) pairing.pair(edge);
+  });
+}
+
+/// Fans of corners; the root of a fan is its lowest corner.
+class FanForest {
+ public:
+  explicit FanForest(Index cornerCount) : parent_(cornerCount) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  Index find(Index c) {
+    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
+    return c;
+  }
+  void unite(Index a, Index b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+FanForest findFans(const PolygonMesh& mesh, const Adjacency& joints) {
+  FanForest fans(mesh.cornerCount());
+  for (Index c = 0; c < mesh.cornerCount(); ++c) {
+    const Index t = joints.twin[c];
+    if (t == kNone || t < c) continue;
+    const bool same = mesh.faceVertices[c] == mesh.faceVertices[t];
+    const Index tNext = nextCorner(mesh, joints, t);
+    fans.unite(c, same ? t : tNext);
+    fans.unite(nextCorner(mesh, joints, c), same ? tNext : t);
+  }
+  return fans;
+}
+
+}  // namespace
+
+Joints joinFaces(const PolygonMesh& mesh, CrowdedEdge crowded) {
+  Joints joints{buildAdjacency(mesh), {}};
+  const auto edges = cornersByEdge(mesh, joints.adjacency);
+  forEachEdge(edges, [&](std::span<const EdgeCorner> edge) {
+    if (edge.size() > 2) joints.crowdedEdges.push_back(edge[0].corner);
+    if (edge.size() != 2) return;
+    joints.adjacency.twin[edge[0].corner] = edge[1].corner;
+    joints.adjacency.twin[edge[1].corner] = edge[0].corner;
+  });
+  if (crowded == CrowdedEdge::kPairSheets && !joints.crowdedEdges.empty())
+    pairCrowdedEdges(mesh, edges, joints.adjacency);
+  return joints;
+}
+
+std::vector<Index> splitFans(PolygonMesh& mesh, const Adjacency& joints) {
+  FanForest fans = findFans(mesh, joints);
+  std::vector<bool> taken(mesh.pointCount(), false);
+  std::vector<std::pair<Index, Index>> further;  // (vertex, lowest corner of the fan)
+  for (Index c = 0; c < mesh.cornerCount(); ++c) {
+    if (fans.find(c) != c) continue;
+    const Index v = mesh.faceVertices[c];
+    if (taken[v]) further.emplace_back(v, c);
+    taken[v] = true;
+  }
+  if (further.empty()) return {};
+  if (further.size() >= kNone - mesh.points.size())
+    throw LimitError("repair would need 2^32 - 1 points or more");
+
+  std::sort(further.begin(), further.end());
+  std::vector<Index> newName(mesh.cornerCount(), kNone);  // slot: root of the fan
+  std::vector<Index> copied;
+  for (const auto& [v, root] : further) {
+    newName[root] = mesh.pointCount();
+    mesh.points.push_back(Vec3d(mesh.points[v]));
+    copied.push_back(v);
+  }
+  for (Index c = 0; c < mesh.cornerCount(); ++c) {
+    const Index name = newName[fans.find(c)];
+    if (name != kNone) mesh.faceVertices[c] = name;
+  }
+  return copied;
+}
+
+}  // namespace vox

@@ -1,0 +1,355 @@
+// The order of the steps, and the book-keeping that lets every message name the input's elements.
+
+#include "libvox/prepare/repair.h"
+
+#include "libvox/core/parallel.h"
+#include "libvox/mesh/validate.h"
+#include "libvox/prepare/chord.h"
+#include "libvox/prepare/face_order.h"
+#include "libvox/prepare/manifold.h"
+#include "libvox/prepare/weld.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace vox {
+namespace {
+
+/// Chording can create edges of four faces, cutting those new vertices to chord. Real meshes need
+/// one or two rounds; this many keep the cost of any other within its bound.
+constexpr int kMostRounds = 16;
+
+std::string str(std::size_t n) {
+  return std::to_string(n);
+}
+
+/// A mesh on its way, and where its elements come from.
+struct Draft {
+  PolygonMesh mesh;
+  std::vector<Index> pointOrigin;
+  std::vector<Index> faceOrigin;
+  std::vector<bool> chorded;  // per input point
+};
+
+template <class Message>
+void note(RepairReport& report, RepairKind kind, Index element, Message&& message) {
+  RepairAction& action = report.actions[static_cast<std::size_t>(kind)];
+  if (action.count++ > 0) return;
+  action.element = element;
+  action.message = message();
+}
+
+std::vector<Index> numbered(Index count) {
+  std::vector<Index> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+std::vector<bool> usedPoints(const PolygonMesh& mesh) {
+  std::vector<bool> used(mesh.pointCount(), false);
+  for (const Index v : mesh.faceVertices) used[v] = true;
+  return used;
+}
+
+void weld(Draft& draft, double tolerance, RepairReport& report) {
+  report.weldedTo = weldTargets(draft.mesh.points, usedPoints(draft.mesh), tolerance);
+  for (Index v = 0; v < draft.mesh.pointCount(); ++v) {
+    const Index to = report.weldedTo[v];
+    if (to != v)
+      note(report, RepairKind::kWeldedVertex, v,
+           [&] { return "welded vertex " + str(v) + " to vertex " + str(to); });
+  }
+  for (Index& v : draft.mesh.faceVertices) v = report.weldedTo[v];
+}
+
+/// Cuts cyclic lists of vertices where they return to a vertex.
+class LoopCutter {
+ public:
+  explicit LoopCutter(Index pointCount) : place_(pointCount, kNone) {}
+
+  /// Calls visit(loop) with the loops of a face, each without repeats of its own. A loop of
+  /// one corner is a repeat (v v), one of two a spike (a b a). Linear in the face.
+  template <class Visit>
+  void cut(std::span<const Index> face, Visit&& visit) {
+    for (const Index v : face) {
+      if (place_[v] != kNone) {
+        visit(std::span<const Index>(path_).subspan(place_[v]));
+        shorten(place_[v]);
+      }
+      place_[v] = static_cast<Index>(path_.size());
+      path_.push_back(v);
+    }
+    visit(std::span<const Index>(path_));
+    shorten(0);
+  }
+
+ private:
+  void shorten(std::size_t size) {
+    for (std::size_t k = size; k < path_.size(); ++k) place_[path_[k]] = kNone;
+    path_.resize(size);
+  }
+
+  std::vector<Index> path_;
+  std::vector<Index> place_;  // of each vertex in the path, or kNone
+};
+
+void noteCleaning(Index f, Index loops, bool repeats, RepairReport& report) {
+  if (loops == 0)
+    note(report, RepairKind::kDegenerateFace, f,
+         [&] { return "dropped face " + str(f) + ", which has fewer than 3 distinct corners"; });
+  else if (repeats)
+    note(report, RepairKind::kRepeatedCorner, f,
+         [&] { return "removed repeated corners from face " + str(f); });
+  if (loops > 1)
+    note(report, RepairKind::kSplitFace, f, [&] {
+      return "split face " + str(f) + ", which touches itself, into " + str(loops) + " faces";
+    });
+}
+
+void cleanFaces(Draft& draft, RepairReport& report) {
+  PolygonMesh clean;
+  std::vector<Index> faceOrigin;
+  LoopCutter cutter(draft.mesh.pointCount());
+  for (Index f = 0; f < draft.mesh.faceCount(); ++f) {
+    Index loops = 0;
+    bool repeats = false;
+    cutter.cut(draft.mesh.face(f), [&](std::span<const Index> loop) {
+      repeats |= loop.size() < 3;
+      if (loop.size() < 3) return;
+      clean.addFace(loop);
+      faceOrigin.push_back(draft.faceOrigin[f]);
+      ++loops;
+    });
+    noteCleaning(draft.faceOrigin[f], loops, repeats, report);
+  }
+  clean.points = std::move(draft.mesh.points);
+  draft.mesh = std::move(clean);
+  draft.faceOrigin = std::move(faceOrigin);
+}
+
+/// For each face, the first face on the same cycle of vertices.
+std::vector<Index> firstAlike(const PolygonMesh& mesh) {
+  PolygonMesh canonical;
+  canonical.faceOffsets = mesh.faceOffsets;
+  canonical.faceVertices = mesh.faceVertices;
+  canonicalizeFaces(canonical);
+  std::vector<Index> order = numbered(mesh.faceCount());
+  sortInParallel(order, [&](Index f, Index g) {
+    const auto a = canonical.face(f);
+    const auto b = canonical.face(g);
+    if (a.size() != b.size()) return a.size() < b.size();
+    const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin());
+    return x == a.end() ? f < g : *x < *y;
+  });
+
+  std::vector<Index> first = numbered(mesh.faceCount());
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const auto a = canonical.face(order[k - 1]);
+    const auto b = canonical.face(order[k]);
+    if (std::equal(a.begin(), a.end(), b.begin(), b.end())) first[order[k]] = first[order[k - 1]];
+  }
+  return first;
+}
+
+void dropDuplicates(Draft& draft, RepairReport& report) {
+  const std::vector<Index> first = firstAlike(draft.mesh);
+  PolygonMesh kept;
+  std::vector<Index> faceOrigin;
+  for (Index f = 0; f < draft.mesh.faceCount(); ++f) {
+    const Index origin = draft.faceOrigin[f];
+    if (first[f] == f) {
+      kept.addFace(draft.mesh.face(f));
+      faceOrigin.push_back(origin);
+      continue;
+    }
+    note(report, RepairKind::kDuplicateFace, origin, [&] {
+      return "dropped face " + str(origin) + ", which repeats face " +
+             str(draft.faceOrigin[first[f]]);
+    });
+  }
+  kept.points = std::move(draft.mesh.points);
+  draft.mesh = std::move(kept);
+  draft.faceOrigin = std::move(faceOrigin);
+}
+
+std::pair<Index, Index> edgeOf(const Draft& draft, const Adjacency& joints, Index c) {
+  return {draft.mesh.faceVertices[c], draft.mesh.faceVertices[nextCorner(draft.mesh, joints, c)]};
+}
+
+void noteCutEdges(const Draft& draft, const Joints& joints, RepairReport& report) {
+  for (const Index c : joints.crowdedEdges) {
+    const auto [v, w] = edgeOf(draft, joints.adjacency, c);
+    const auto [low, high] = std::minmax({draft.pointOrigin[v], draft.pointOrigin[w]});
+    const Index face = draft.faceOrigin[joints.adjacency.cornerFace[c]];
+    note(report, RepairKind::kCutEdge, face, [&, low = low, high = high] {
+      return "cut edge (" + str(low) + ", " + str(high) + ") of face " + str(face) +
+             ", which has three faces or more";
+    });
+  }
+}
+
+/// Vertices (of the draft) at which crowded edges end.
+std::vector<bool> crowdedVertices(const Draft& draft, const Joints& joints) {
+  std::vector<bool> crowded(draft.mesh.pointCount(), false);
+  for (const Index c : joints.crowdedEdges) {
+    const auto [v, w] = edgeOf(draft, joints.adjacency, c);
+    crowded[v] = crowded[w] = true;
+  }
+  return crowded;
+}
+
+void noteCopies(Draft& draft, const std::vector<Index>& copied, const std::vector<bool>& atCut,
+                RepairReport& report) {
+  for (const Index v : copied) {
+    const Index origin = draft.pointOrigin[v];
+    draft.pointOrigin.push_back(origin);
+    if (atCut[v]) continue;
+    note(report, RepairKind::kSplitVertex, origin,
+         [&] { return "split vertex " + str(origin) + ", which joins several fans of faces"; });
+  }
+}
+
+/// Leaves edges of one or two faces and vertices of one fan. Where the fans of a pair of sheets
+/// meet again around both ends of their edge, copies cannot tell the sheets apart; a second pass
+/// separates all faces there, which leaves at most two to each copy of the edge.
+Adjacency cutIntoSheets(Draft& draft, RepairReport& report) {
+  for (const auto crowded : {CrowdedEdge::kPairSheets, CrowdedEdge::kSeparate}) {
+    const Joints joints = joinFaces(draft.mesh, crowded);
+    if (crowded == CrowdedEdge::kPairSheets) noteCutEdges(draft, joints, report);
+    const auto atCut = crowdedVertices(draft, joints);
+    const auto copied = splitFans(draft.mesh, joints.adjacency);
+    noteCopies(draft, copied, atCut, report);
+    if (joints.crowdedEdges.empty()) return joints.adjacency;
+  }
+  return joinFaces(draft.mesh, CrowdedEdge::kSeparate).adjacency;
+}
+
+void noteChords(Draft& draft, const ChordResult& chords, RepairReport& report) {
+  for (const Index v : chords.chordedVertices) {
+    draft.chorded[draft.pointOrigin[v]] = true;
+    note(report, RepairKind::kChordedVertex, draft.pointOrigin[v], [&] {
+      return "chorded vertex " + str(draft.pointOrigin[v]) +
+             ", which has only two faces and no boundary";
+    });
+  }
+  for (const Index f : chords.collapsedFaces)
+    note(report, RepairKind::kCollapsedFace, draft.faceOrigin[f], [&] {
+      return "closed up face " + str(draft.faceOrigin[f]) + ", which chords left with two corners";
+    });
+  for (const Index f : chords.vanishedComponents)
+    note(report, RepairKind::kVanishedComponent, draft.faceOrigin[f], [&] {
+      return "dropped the component of face " + str(draft.faceOrigin[f]) +
+             ", which encloses nothing";
+    });
+}
+
+/// @return whether there was anything to chord
+bool chord(Draft& draft, const Adjacency& joints, RepairReport& report) {
+  ChordResult chords = chordInteriorPairs(draft.mesh, joints);
+  if (chords.chordedVertices.empty()) return false;
+  noteChords(draft, chords, report);
+  draft.mesh = std::move(chords.mesh);
+  for (Index& f : chords.faceOrigin) f = draft.faceOrigin[f];
+  draft.faceOrigin = std::move(chords.faceOrigin);
+  return true;
+}
+
+void makeManifold(Draft& draft, RepairReport& report) {
+  for (int round = 0; round < kMostRounds; ++round) {
+    dropDuplicates(draft, report);
+    const Adjacency joints = cutIntoSheets(draft, report);
+    if (!chord(draft, joints, report)) return;
+  }
+  dropDuplicates(draft, report);
+  Adjacency joints = cutIntoSheets(draft, report);
+  openInteriorPairs(draft.mesh, joints);
+  const auto copied = splitFans(draft.mesh, joints);
+  noteCopies(draft, copied, std::vector<bool>(draft.mesh.pointCount(), false), report);
+}
+
+/// Counts the input's vertices that are gone, but not those that were welded or chorded away.
+void noteRemoved(const Draft& draft, RepairReport& report) {
+  std::vector<bool> accountedFor = draft.chorded;
+  for (const Index origin : draft.pointOrigin) accountedFor[origin] = true;
+  for (Index v = 0; v < accountedFor.size(); ++v)
+    if (!accountedFor[v] && report.weldedTo[v] == v)
+      note(report, RepairKind::kRemovedVertex, v,
+           [&] { return "removed vertex " + str(v) + ", which belongs to no face"; });
+}
+
+void removeUnused(Draft& draft) {
+  const std::vector<bool> used = usedPoints(draft.mesh);
+  std::vector<Index> newName(draft.mesh.pointCount(), kNone);
+  Index kept = 0;
+  for (Index v = 0; v < newName.size(); ++v) {
+    if (!used[v]) continue;
+    newName[v] = kept;
+    draft.mesh.points[kept] = draft.mesh.points[v];
+    draft.pointOrigin[kept++] = draft.pointOrigin[v];
+  }
+  draft.mesh.points.resize(kept);
+  draft.pointOrigin.resize(kept);
+  for (Index& v : draft.mesh.faceVertices) v = newName[v];
+}
+
+struct Phrase {
+  const char* verb;
+  const char* one;
+  const char* many;
+};
+constexpr std::array<Phrase, kRepairKindCount> kPhrases = {{
+    {"welded", "vertex", "vertices"},
+    {"removed repeated corners from", "face", "faces"},
+    {"split", "face that touches itself", "faces that touch themselves"},
+    {"dropped", "degenerate face", "degenerate faces"},
+    {"dropped", "duplicate face", "duplicate faces"},
+    {"cut", "edge", "edges"},
+    {"split", "vertex", "vertices"},
+    {"chorded", "vertex", "vertices"},
+    {"closed up", "face", "faces"},
+    {"dropped", "flat component", "flat components"},
+    {"removed", "unused vertex", "unused vertices"},
+}};
+
+}  // namespace
+
+bool RepairReport::changed() const {
+  return std::any_of(actions.begin(), actions.end(),
+                     [](const RepairAction& action) { return action.count > 0; });
+}
+
+std::string summary(const RepairReport& report) {
+  std::string line;
+  for (std::size_t k = 0; k < kRepairKindCount; ++k) {
+    const std::size_t count = report.actions[k].count;
+    if (count == 0) continue;
+    if (!line.empty()) line += ", ";
+    const Phrase& phrase = kPhrases[k];
+    line +=
+        std::string(phrase.verb) + " " + str(count) + " " + (count == 1 ? phrase.one : phrase.many);
+  }
+  return line;
+}
+
+PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport& report) {
+  requireValidArrays(mesh);
+  report = RepairReport{};
+  report.weldedTo = numbered(mesh.pointCount());
+  Draft draft{std::move(mesh), {}, {}, {}};
+  draft.chorded.assign(draft.mesh.pointCount(), false);
+  draft.pointOrigin = numbered(draft.mesh.pointCount());
+  draft.faceOrigin = numbered(draft.mesh.faceCount());
+
+  if (options.weld) weld(draft, options.weldTolerance, report);
+  cleanFaces(draft, report);
+  makeManifold(draft, report);
+  removeUnused(draft);
+  noteRemoved(draft, report);
+  report.pointOrigin = std::move(draft.pointOrigin);
+  report.faceOrigin = std::move(draft.faceOrigin);
+  return std::move(draft.mesh);
+}
+
+}  // namespace vox

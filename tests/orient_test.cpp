@@ -1,0 +1,319 @@
+#include "libvox/prepare/orient.h"
+
+#include "libvox/mesh/validate.h"
+#include "libvox/prepare/enclosure.h"
+#include "libvox/prepare/repair.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "tests/shapes.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+using namespace vox;
+using Catch::Contains;
+
+namespace {
+
+struct Oriented {
+  PolygonMesh mesh;
+  OrientReport report;
+};
+
+Oriented oriented(const PolygonMesh& mesh) {
+  Oriented out;
+  out.mesh = orient(mesh, out.report);
+  return out;
+}
+
+bool sameMesh(const PolygonMesh& a, const PolygonMesh& b) {
+  return a.points == b.points && a.faceOffsets == b.faceOffsets && a.faceVertices == b.faceVertices;
+}
+
+void checkSound(const PolygonMesh& mesh) {
+  const Adjacency adjacency = buildAdjacency(mesh);
+  const auto defects = findDefects(mesh, adjacency);
+  if (!defects.empty()) FAIL_CHECK(defects[0].message);
+  CHECK_NOTHROW(baseLevel(mesh));
+}
+
+void flipFace(PolygonMesh& mesh, Index f) {
+  std::reverse(mesh.faceVertices.begin() + mesh.faceOffsets[f],
+               mesh.faceVertices.begin() + mesh.faceOffsets[f + 1]);
+}
+
+PolygonMesh insideOut(PolygonMesh mesh) {
+  for (Index f = 0; f < mesh.faceCount(); ++f) flipFace(mesh, f);
+  return mesh;
+}
+
+/// Rotates every face and flips each with the given probability.
+PolygonMesh stirred(PolygonMesh mesh, double flips, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto begin = mesh.faceVertices.begin() + mesh.faceOffsets[f];
+    const auto end = mesh.faceVertices.begin() + mesh.faceOffsets[f + 1];
+    std::rotate(begin, begin + random() % mesh.faceSize(f), end);
+    if (std::uniform_real_distribution<double>()(random) < flips) flipFace(mesh, f);
+  }
+  return mesh;
+}
+
+PolygonMesh together(PolygonMesh a, const PolygonMesh& b, double scale, const Vec3d& shift) {
+  const Index offset = a.pointCount();
+  for (const Vec3d& p : b.points) a.points.push_back(scale * p + shift);
+  for (Index f = 0; f < b.faceCount(); ++f) {
+    std::vector<Index> face;
+    for (const Index v : b.face(f)) face.push_back(v + offset);
+    a.addFace(face);
+  }
+  return a;
+}
+
+double volume(const PolygonMesh& mesh) {
+  std::vector<Index> all(mesh.faceCount());
+  std::iota(all.begin(), all.end(), 0);
+  return signedVolume(mesh, all).volume;
+}
+
+int euler(const PolygonMesh& mesh) {
+  const Adjacency adjacency = buildAdjacency(mesh);
+  int edges = 0;
+  for (Index c = 0; c < mesh.cornerCount(); ++c)
+    edges += adjacency.twin[c] == kNone || leadsEdge(adjacency, c);
+  return static_cast<int>(mesh.pointCount()) - edges + static_cast<int>(mesh.faceCount());
+}
+
+/// A Klein bottle: a torus grid whose last column is glued to the first one upside down.
+PolygonMesh klein(int columns, int rows) {
+  PolygonMesh mesh = test::torusGrid(columns, rows);
+  mesh.faceVertices.clear();
+  mesh.faceOffsets = {0};
+  const auto at = [&](int i, int j) {
+    const int row = i < columns ? j : 2 * rows - j;
+    return static_cast<Index>(i % columns * rows + row % rows);
+  };
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j)
+      mesh.addFace(std::vector<Index>{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("volume is that of the solid, negative inside out", "[orient]") {
+  CHECK(volume(test::cube()) == Approx(8));
+  CHECK(volume(insideOut(test::cube())) == Approx(-8));
+  CHECK(volume(test::tetrahedron()) == Approx(8.0 / 3));
+}
+
+TEST_CASE("a ray knows inside from outside, through edges and vertices too", "[orient]") {
+  const PolygonMesh cube = test::cube();
+  const std::vector<Index> all = {0, 1, 2, 3, 4, 5};
+  for (double y = -1.5; y <= 1.5; y += 0.25)
+    for (double z = -1.5; z <= 1.5; z += 0.25) {
+      if (std::max(std::abs(y), std::abs(z)) == 1) continue;  // on the surface
+      const bool within = std::max(std::abs(y), std::abs(z)) < 1;
+      CHECK(encloses(cube, all, {0, y, z}) == within);
+      CHECK_FALSE(encloses(cube, all, {-2, y, z}));
+      CHECK_FALSE(encloses(cube, all, {2, y, z}));
+    }
+}
+
+TEST_CASE("closed shapes face outward and keep everything but their winding", "[orient]") {
+  for (const auto& shape : test::shapes()) {
+    if (shape.name == "bow tie") continue;
+    CAPTURE(shape.name);
+    const auto out = oriented(shape.mesh);
+    CHECK(out.mesh.points == shape.mesh.points);
+    CHECK(out.mesh.faceOffsets == shape.mesh.faceOffsets);
+    CHECK(out.report.flippedFaces == 0);
+    CHECK(out.report.components == 1);
+    CHECK(out.report.closedComponents == (shape.closed ? 1 : 0));
+    CHECK(out.report.secondSide == out.mesh.faceCount());
+    CHECK(summary(out.report).empty());
+    if (shape.closed) CHECK(volume(out.mesh) > 0);
+    checkSound(out.mesh);
+  }
+}
+
+TEST_CASE("every face starts at its lowest vertex", "[orient]") {
+  const auto out = oriented(test::dodecahedron());
+  for (Index f = 0; f < out.mesh.faceCount(); ++f) {
+    const auto face = out.mesh.face(f);
+    CHECK(face[0] == *std::min_element(face.begin(), face.end()));
+  }
+}
+
+TEST_CASE("flipping and rotating any faces of a closed mesh changes not a bit",
+          "[orient][property]") {
+  for (const auto& shape : test::shapes()) {
+    if (!shape.closed || shape.name == "bow tie") continue;
+    CAPTURE(shape.name);
+    const auto expected = oriented(shape.mesh);
+    for (std::uint32_t seed = 0; seed < 40; ++seed) {
+      CAPTURE(seed);
+      const auto out = oriented(stirred(shape.mesh, seed / 39.0, seed));
+      CHECK(sameMesh(out.mesh, expected.mesh));
+    }
+    CHECK(oriented(insideOut(shape.mesh)).report.flippedFaces == shape.mesh.faceCount());
+  }
+}
+
+TEST_CASE("an open mesh follows the majority of its faces", "[orient][property]") {
+  const PolygonMesh sheet = test::sheet(5, 4);
+  const auto expected = oriented(sheet);
+  const auto opposite = oriented(insideOut(sheet));
+  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+    CAPTURE(seed);
+    PolygonMesh mesh = sheet;
+    std::vector<Index> faces(mesh.faceCount());
+    std::iota(faces.begin(), faces.end(), 0);
+    std::shuffle(faces.begin(), faces.end(), std::mt19937(seed));
+    const Index flips = seed % 21;
+    for (Index k = 0; k < flips; ++k) flipFace(mesh, faces[k]);
+    const auto out = oriented(stirred(mesh, 0, seed));
+    const bool firstKept =
+        std::find(faces.begin(), faces.begin() + flips, 0) == faces.begin() + flips;
+    const bool keeps = flips < 10 || (flips == 10 && firstKept);
+    CHECK(sameMesh(out.mesh, keeps ? expected.mesh : opposite.mesh));
+    CHECK(out.report.flippedFaces == (keeps ? flips : 20 - flips));
+    CHECK(out.report.openComponents == 1);
+  }
+}
+
+TEST_CASE("repair and orient together ignore winding and rotation of a crowded mesh",
+          "[orient][property]") {
+  PolygonMesh mesh = together(test::cube(), test::cube(), 1, {2, 2, 0});  // a common edge
+  mesh = together(mesh, test::cube(), 1, {-2, 0, 0});                     // a common wall
+  const auto prepare = [](const PolygonMesh& input) {
+    RepairReport repairs;
+    return oriented(repair(input, {}, repairs)).mesh;
+  };
+  const PolygonMesh expected = prepare(mesh);
+  checkSound(expected);
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    // The wall is a component of its own, one face: it keeps its winding. Flip the others.
+    PolygonMesh input = stirred(mesh, 0.5, seed);
+    const PolygonMesh out = prepare(input);
+    CHECK(out.points == expected.points);
+    CHECK(out.faceOffsets == expected.faceOffsets);
+    Index different = 0;
+    for (Index f = 0; f < out.faceCount(); ++f)
+      different += !std::ranges::equal(out.face(f), expected.face(f));
+    CHECK(different <= 1);
+  }
+}
+
+TEST_CASE("a cavity keeps facing inward, when the input says so", "[orient]") {
+  const PolygonMesh solid = test::cube();
+  const PolygonMesh hollow = together(solid, insideOut(test::cube()), 0.5, {0.1, 0.2, 0.1});
+  const auto kept = oriented(hollow);
+  CHECK(volume(kept.mesh) == Approx(7));
+  CHECK(kept.report.cavities == 1);
+  CHECK(kept.report.flippedFaces == 0);
+  CHECK(sameMesh(kept.mesh, oriented(kept.mesh).mesh));
+
+  CHECK(volume(oriented(together(solid, solid, 0.5, {0.1, 0.2, 0.1})).mesh) == Approx(9));
+
+  PolygonMesh inconsistent = hollow;
+  flipFace(inconsistent, 7);
+  const auto turned = oriented(inconsistent);
+  CHECK(volume(turned.mesh) == Approx(9));
+  CHECK(turned.report.cavities == 0);
+}
+
+TEST_CASE("an inside-out cube beside another one is no cavity", "[orient]") {
+  const auto out = oriented(together(test::cube(), insideOut(test::cube()), 1, {5, 0, 0}));
+  CHECK(volume(out.mesh) == Approx(16));
+  // Within the bounding box is not yet within: here, in the hole of a torus.
+  const PolygonMesh ring =
+      together(test::torusGrid(24, 12), insideOut(test::cube()), 0.1, {0, 0, 0});
+  CHECK(oriented(ring).report.cavities == 0);
+  const PolygonMesh inTube =
+      together(test::torusGrid(24, 12), insideOut(test::cube()), 0.1, {1, 0, 0});
+  CHECK(oriented(inTube).report.cavities == 1);
+}
+
+TEST_CASE("a Moebius strip becomes its double cover", "[orient]") {
+  const int quads = GENERATE(5, 12);
+  const auto out = oriented(test::moebius(quads));
+  const auto n = static_cast<Index>(quads);
+  CHECK(out.report.oneSided == std::vector<Index>{0});
+  CHECK(out.report.components == 1);
+  CHECK(out.report.openComponents == 0);
+  CHECK(out.report.secondSide == n);
+  CHECK(out.mesh.faceCount() == 2 * n);
+  CHECK(out.mesh.pointCount() == 4 * n);
+  CHECK(euler(out.mesh) == 0);
+  CHECK_THAT(summary(out.report), Contains("doubled 1 one-sided component (face 0)"));
+  checkSound(out.mesh);
+  CHECK(boundaryLoops(out.mesh, buildAdjacency(out.mesh)).size() == 2);  // an annulus
+  for (Index v = 0; v < out.mesh.pointCount(); ++v)
+    CHECK(out.mesh.points[v] == test::moebius(quads).points[out.report.pointOrigin[v]]);
+  const auto again = oriented(out.mesh);
+  CHECK(sameMesh(again.mesh, out.mesh));
+  CHECK(again.report.oneSided.empty());
+}
+
+TEST_CASE("a Klein bottle becomes a torus over it", "[orient]") {
+  const PolygonMesh bottle = klein(8, 5);
+  const auto out = oriented(bottle);
+  CHECK(out.report.oneSided.size() == 1);
+  CHECK(out.mesh.faceCount() == 2 * bottle.faceCount());
+  CHECK(out.mesh.pointCount() == 2 * bottle.pointCount());
+  CHECK(euler(out.mesh) == 0);
+  CHECK(boundaryLoops(out.mesh, buildAdjacency(out.mesh)).empty());
+  checkSound(out.mesh);
+}
+
+TEST_CASE("the two sides of a one-sided surface subdivide to the same points", "[orient]") {
+  const PolygonMesh bottle = klein(6, 5);
+  const auto out = oriented(bottle);
+  const auto level = subdivide(baseLevel(out.mesh), 2);
+  auto points = level.mesh.points;
+  std::sort(points.begin(), points.end(), [](const Vec3d& p, const Vec3d& q) {
+    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+  });
+  // Every point of the limit is there from either side: no point is far from its nearest in order.
+  const auto half = points.size() / 2;
+  std::vector<Vec3d> odd;
+  std::vector<Vec3d> even;
+  for (std::size_t k = 0; k < half; ++k) {
+    even.push_back(points[2 * k]);
+    odd.push_back(points[2 * k + 1]);
+  }
+  CHECK(test::samePoints(even, odd, 1e-12));
+}
+
+TEST_CASE("one-sided surfaces do not depend on winding and rotation but for the side", "[orient]") {
+  const PolygonMesh strip = test::moebius(9);
+  const auto expected = oriented(strip);
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    const auto out = oriented(stirred(strip, 0.5, seed));
+    CHECK(out.mesh.faceCount() == expected.mesh.faceCount());
+    CHECK(out.mesh.points == expected.mesh.points);
+    checkSound(out.mesh);
+  }
+}
+
+TEST_CASE("an empty mesh stays empty", "[orient]") {
+  const auto out = oriented(PolygonMesh{});
+  CHECK(out.mesh.faceCount() == 0);
+  CHECK(out.report.components == 0);
+}
+
+TEST_CASE("components are turned one by one", "[orient]") {
+  PolygonMesh mesh = insideOut(test::cube());
+  for (int i = 1; i < 6; ++i)
+    mesh = together(mesh, i % 2 ? test::cube() : insideOut(test::cube()), 1, {3.0 * i, 0, 0});
+  mesh = together(mesh, test::sheet(2, 2), 1, {0, 9, 0});
+  const auto out = oriented(mesh);
+  CHECK(out.report.components == 7);
+  CHECK(out.report.closedComponents == 6);
+  CHECK(out.report.openComponents == 1);
+  CHECK(out.report.flippedFaces == 18);
+  CHECK(summary(out.report) == "flipped 18 faces");
+}
