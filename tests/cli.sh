@@ -82,7 +82,6 @@ for command in convert subdivide; do
   try 'large.obj:1: ' large.obj
   try 'digon.obj:4: ' digon.obj
   try 'faceless.obj: .*face' faceless.obj
-  try 'faces 0 and 1 run through edge' winding.obj
   try 'mesh.xyz: .*extension' mesh.xyz
   try 'truncated.ply: .*truncated' truncated.ply
   try 'garbage.stl: ' garbage.stl
@@ -179,6 +178,12 @@ expect 2 'one of none, interior' convert good.obj -o out.vdb --interpolate all
 expect 2 'free boundary cannot be interpolated' convert good.obj -o out.vdb --boundary free --interpolate both
 echo '1 two' >wrong.txt
 expect 3 'wrong.txt:1: ' convert good.obj -o out.vdb --interpolate-vertices wrong.txt
+
+# Faults of a mesh are repaired, and told.
+expect 0 '' convert winding.obj -o winding.vdb --dim 8
+grep -q 'warning: winding: dropped 1 duplicate face' stderr || fail "no word of the repair: $(cat stderr)"
+printf '%sf 1 1 2\n' "$triangle" >nothing.obj
+expect 3 'nothing.obj: nothing is left after repair' convert nothing.obj -o out.vdb
 
 # What needs care at the edges.
 expect 2 'out.obj: .*must end in .vdb' convert good.obj -o out.obj

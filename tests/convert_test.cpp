@@ -8,6 +8,8 @@
 #include <catch2/catch.hpp>
 #include <openvdb/openvdb.h>
 
+#include <algorithm>
+#include <random>
 #include <sstream>
 
 using namespace vox;
@@ -185,7 +187,6 @@ TEST_CASE("a conversion that cannot fit is refused before it starts", "[pipeline
 
 TEST_CASE("impossible requests are refused", "[pipeline][error]") {
   CHECK_THROWS_AS(convert(sceneOf(test::cube()), maskAt(0)), UsageError);
-  CHECK_THROWS_AS(convert(sceneOf(test::moebius(6)), maskAt(8)), MeshError);
   ConvertOptions fine;
   fine.voxelSize = 1e-12;
   CHECK_THROWS_AS(convert(sceneOf(test::cube()), fine), LimitError);
@@ -262,4 +263,46 @@ TEST_CASE("contradictory arrays are refused, not followed", "[pipeline][error]")
   PolygonMesh mesh = test::cube();
   mesh.faceVertices[5] = 50000000;
   CHECK_THROWS_AS(convert(sceneOf(mesh), maskAt(8)), MeshError);
+}
+
+TEST_CASE("flipping any faces changes no voxel", "[pipeline][property]") {
+  for (const auto& shape : test::shapes()) {
+    CAPTURE(shape.name);
+    const Conversion plain = convert(sceneOf(shape.mesh), maskAt(40));
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
+      PolygonMesh flipped = shape.mesh;
+      std::mt19937 random(seed);
+      for (Index f = 0; f < flipped.faceCount(); ++f)
+        if (random() % 2 == 0)
+          std::reverse(flipped.faceVertices.begin() + flipped.faceOffsets[f],
+                       flipped.faceVertices.begin() + flipped.faceOffsets[f + 1]);
+      const Conversion other = convert(sceneOf(flipped), maskAt(40));
+      CHECK(maskOf(other).tree().hasSameTopology(maskOf(plain).tree()));
+    }
+  }
+}
+
+TEST_CASE("a Moebius strip is converted with a warning", "[pipeline]") {
+  const Conversion conversion = convert(sceneOf(test::moebius(12)), maskAt(60));
+  CHECK(conversion.report.activeVoxels > 1000);
+  REQUIRE_FALSE(conversion.report.warnings.empty());
+  CHECK_THAT(conversion.report.warnings[0], Contains("one-sided"));
+}
+
+TEST_CASE("what repair did is told in one line", "[pipeline]") {
+  PolygonMesh unwelded;  // a cube of 24 vertices
+  const PolygonMesh cube = test::cube();
+  for (Index f = 0; f < cube.faceCount(); ++f) {
+    std::vector<Index> face;
+    for (const Index v : cube.face(f)) {
+      face.push_back(unwelded.pointCount());
+      unwelded.points.push_back(cube.points[v]);
+    }
+    unwelded.addFace(face);
+  }
+  const Conversion conversion = convert(sceneOf(unwelded), maskAt(30));
+  REQUIRE(conversion.report.warnings.size() == 1);
+  CHECK_THAT(conversion.report.warnings[0], Contains("welded 16 vertices"));
+  const Conversion plain = convert(sceneOf(cube), maskAt(30));
+  CHECK(maskOf(conversion).tree().hasSameTopology(maskOf(plain).tree()));
 }

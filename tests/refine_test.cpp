@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace vox;
 using Catch::Contains;
 
@@ -33,9 +35,14 @@ TEST_CASE("refining a scene joins its objects into one mesh", "[pipeline]") {
   }());
 }
 
-TEST_CASE("level 0 takes meshes that could not be subdivided", "[pipeline]") {
-  CHECK(refine(sceneOf({test::moebius(6)}), 0, {}, {}).mesh.faceCount() == 6);
-  CHECK_THROWS_AS(refine(sceneOf({test::moebius(6)}), 1, {}, {}), MeshError);
+TEST_CASE("level 0 is the prepared mesh: welded, oriented, each face from its lowest vertex",
+          "[pipeline]") {
+  PolygonMesh flipped = test::cube();
+  std::reverse(flipped.faceVertices.begin() + 4, flipped.faceVertices.begin() + 8);
+  const PolygonMesh plain = refine(sceneOf({test::cube()}), 0, {}, {}).mesh;
+  const Refinement repaired = refine(sceneOf({flipped}), 0, {}, {});
+  CHECK(repaired.mesh.faceVertices == plain.faceVertices);
+  CHECK(repaired.warnings.size() == 1);
 }
 
 TEST_CASE("level 0 is the control mesh when vertices are interpolated", "[pipeline]") {
@@ -60,12 +67,13 @@ TEST_CASE("level 0 is the control mesh when vertices are interpolated", "[pipeli
 
 TEST_CASE("what cannot be interpolated is said", "[pipeline][error]") {
   SmoothingOptions smoothing;
-  smoothing.interpolate = Interpolate::kInterior;
-  CHECK(refine(sceneOf({test::cube()}), 0, smoothing, {}).warnings.empty());
-  const auto warnings = refine(sceneOf({test::valenceTwo()}), 0, smoothing, {}).warnings;
-  REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0], Contains("1 vertex could not be interpolated"));
+  smoothing.interpolatedVertices = std::vector<Index>{8};
+  CHECK_THROWS_WITH(refine(sceneOf({test::valenceTwo()}), 0, smoothing, {}),
+                    Contains("vertex 8 is to be interpolated, but repair has removed it"));
+  CHECK_THROWS_WITH(refine(sceneOf({test::cube()}), 0, smoothing, {}),
+                    Contains("vertex 8 is to be interpolated, but there are only 8"));
 
+  smoothing = {};
   smoothing.interpolate = Interpolate::kBoth;
   smoothing.boundary = BoundaryRule::kFree;
   CHECK_THROWS_AS(refine(sceneOf({test::sheet(3, 3)}), 1, smoothing, {}), UsageError);
@@ -77,10 +85,16 @@ TEST_CASE("what cannot be interpolated is said", "[pipeline][error]") {
 }
 
 TEST_CASE("an error names file, object and element", "[pipeline][error]") {
-  Scene scene = sceneOf({test::cube(), test::moebius(6)});
+  PolygonMesh degenerate = test::cube();
+  for (Index& v : degenerate.faceVertices) v = 3;
+  Scene scene = sceneOf({test::cube(), degenerate});
   scene.files = {"two.toml"};
   CHECK_THROWS_WITH(refine(scene, 1, {}, {}),
-                    Contains("two.toml: object 2: faces") && Contains("counted from 0"));
+                    Contains("two.toml: object 2: nothing is left after repair"));
+  scene.objects[1].mesh = test::cube();
+  scene.objects[1].mesh.faceVertices[9] = 8;
+  CHECK_THROWS_WITH(refine(scene, 1, {}, {}),
+                    Contains("two.toml: object 2: face 2 names vertex 8"));
 }
 
 TEST_CASE("refinement keeps to its memory limit", "[pipeline][error]") {

@@ -5,9 +5,13 @@
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
 #include "libvox/mesh/validate.h"
+#include "libvox/prepare/orient.h"
+#include "libvox/prepare/repair.h"
 
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace vox {
 namespace {
@@ -26,6 +30,12 @@ auto namingObject(const Scene& scene, const SceneObject& object, Work&& work) {
     throw MeshError(where + error.what() + " (elements are counted from 0)");
   }
 }
+
+/// Where the vertices of a prepared mesh come from.
+struct VertexOrigin {
+  std::vector<Index> weldedTo;  ///< per vertex of the input: the one it was welded to, or itself
+  std::vector<Index> of;        ///< per prepared vertex: a vertex of the input
+};
 
 bool interpolates(const SmoothingOptions& smoothing) {
   return smoothing.interpolate.value_or(Interpolate::kNothing) != Interpolate::kNothing ||
@@ -46,19 +56,50 @@ void requireConsistent(const Scene& scene, const SceneObject& object,
                      "; use interpolate_vertices in the scene");
 }
 
+/// The mesh as an oriented manifold, with one line of what had to be done for it.
+PolygonMesh manifoldOf(PolygonMesh mesh, const std::string& name, VertexOrigin& origin,
+                       std::vector<std::string>& warnings) {
+  RepairReport repaired;
+  OrientReport oriented;
+  mesh = orient(repair(std::move(mesh), {}, repaired), oriented);
+  if (mesh.faceCount() == 0) throw MeshError("nothing is left after repair: " + summary(repaired));
+  for (const std::string& done : {summary(repaired), summary(oriented)})
+    if (!done.empty()) warnings.push_back(name + ": " + done);
+  origin.weldedTo = std::move(repaired.weldedTo);
+  for (const Index v : oriented.pointOrigin) origin.of.push_back(repaired.pointOrigin[v]);
+  return mesh;
+}
+
+/// The vertices of the prepared mesh that some vertices of the input have become: each with all
+/// its copies.
+std::vector<Index> verticesFrom(std::span<const Index> inputVertices, const VertexOrigin& origin) {
+  std::vector<Index> wanted(origin.weldedTo.size(), kNone);
+  for (const Index v : inputVertices) {
+    if (v >= origin.weldedTo.size())
+      throw MeshError("vertex " + std::to_string(v) +
+                      " is to be interpolated, but there are only " +
+                      std::to_string(origin.weldedTo.size()));
+    wanted[origin.weldedTo[v]] = v;
+  }
+  std::vector<Index> found;
+  std::vector<bool> seen(wanted.size(), false);
+  for (Index v = 0; v < origin.of.size(); ++v) {
+    if (wanted[origin.of[v]] == kNone) continue;
+    found.push_back(v);
+    seen[origin.of[v]] = true;
+  }
+  for (Index w = 0; w < wanted.size(); ++w)
+    if (wanted[w] != kNone && !seen[w])
+      throw MeshError("vertex " + std::to_string(wanted[w]) +
+                      " is to be interpolated, but repair has removed it");
+  return found;
+}
+
 /// Peak of interpolation: mostly one value per corner, twice, and the vectors of the solver.
 std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
   constexpr std::uint64_t kPerCorner = sizeof(Vec3d) + sizeof(Index);
   constexpr std::uint64_t kPerVertex = 3 * sizeof(Vec3d) + 8 * sizeof(double);
   return mesh.cornerCount() * kPerCorner + mesh.pointCount() * kPerVertex;
-}
-
-void warnOfLeftOut(const std::string& name, const InterpolationReport& report,
-                   std::vector<std::string>& warnings) {
-  if (report.leftOut == 0) return;
-  warnings.push_back(name + ": " + std::to_string(report.leftOut) +
-                     (report.leftOut == 1 ? " vertex" : " vertices") +
-                     " could not be interpolated, having two faces only or several fans of faces");
 }
 
 SubdivisionLevel subdivided(SubdivisionLevel level, int levels, const MemoryBudget& budget) {
@@ -92,12 +133,9 @@ Refinement refineAll(const Scene& scene, int levels, const SmoothingOptions& smo
   Refinement all;
   for (const SceneObject& object : scene.objects) {
     budget.take(bytesOf(object.mesh), "the input", kAdvice);
-    PolygonMesh part = object.mesh;
-    if (levels > 0 || interpolates(overriding(smoothing, object.smoothing))) {
-      PreparedObject prepared = prepare(scene, object, std::move(part), smoothing, budget);
-      part = subdivided(std::move(prepared.base), levels, budget).mesh;
-      all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
-    }
+    PreparedObject prepared = prepare(scene, object, object.mesh, smoothing, budget);
+    PolygonMesh part = subdivided(std::move(prepared.base), levels, budget).mesh;
+    all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
     budget.take(2 * bytesOf(part), "the refined mesh", kAdvice);
     append(all.mesh, std::move(part));
@@ -136,21 +174,23 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMes
                        const SmoothingOptions& smoothing, const MemoryBudget& budget) {
   const SmoothingOptions own = overriding(smoothing, object.smoothing);
   requireConsistent(scene, object, smoothing, own);
-  constexpr std::uint64_t kPerCorner = 2 * sizeof(EdgeCorner) + 4 * sizeof(Index);
+  constexpr std::uint64_t kPerCorner = 4 * sizeof(EdgeCorner) + 12 * sizeof(Index);
   budget.require(bytesOf(mesh) + mesh.cornerCount() * kPerCorner, "finding neighbours",
                  "raise --max-memory");
   PreparedObject prepared;
   SubdivisionLevel& base = prepared.base;
   namingObject(scene, object, [&] {
+    VertexOrigin origin;
+    mesh = manifoldOf(std::move(mesh), object.name, origin, prepared.warnings);
     base = baseLevel(std::move(mesh), own.boundary.value_or(BoundaryRule::kExtend));
     if (!interpolates(own)) return;
     budget.require(bytesOf(base) + bytesOfInterpolation(base.mesh), "interpolation",
                    "raise --max-memory");
     base.mesh = interpolate(
         std::move(base.mesh), base.adjacency, own.interpolate.value_or(Interpolate::kNothing),
-        own.interpolatedVertices.value_or(std::vector<Index>()), prepared.interpolation);
+        verticesFrom(own.interpolatedVertices.value_or(std::vector<Index>()), origin),
+        prepared.interpolation);
   });
-  warnOfLeftOut(object.name, prepared.interpolation, prepared.warnings);
   return prepared;
 }
 

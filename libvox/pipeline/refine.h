@@ -20,10 +20,10 @@ struct Refinement {
 };
 
 /// All objects of a scene as one mesh, after K Doo-Sabin steps; K = 0 gives the control meshes:
-/// where nothing is interpolated, the objects as they are. What `smoothing` sets goes before what
-/// the objects say.
+/// repaired, oriented, and lifted where vertices are interpolated. What `smoothing` sets goes
+/// before what the objects say.
 /// @throws UsageError  levels < 0; as prepare
-/// @throws MeshError   an object has contradictory arrays or, for K > 0, cannot be prepared; the
+/// @throws MeshError   an object has contradictory arrays or, cannot be prepared; the
 ///   message names file, object and element
 /// @throws LimitError  not enough memory, or more elements than fit in 32 bits
 Refinement refine(const Scene& scene, int levels, const SmoothingOptions& smoothing,
@@ -36,11 +36,11 @@ struct PreparedObject {
   std::vector<std::string> warnings;
 };
 
-/// Prepares an object. `mesh` is its mesh, in world or index space; `smoothing` goes before what
-/// the object says.
+/// Prepares an object: repair, orientation, interpolation. `mesh` is its mesh, in world or index
+/// space; `smoothing` goes before what the object says.
 /// @throws UsageError  the boundary is to be interpolated but free; vertices to interpolate are
 ///   given for more than one object at once
-/// @throws MeshError   not an oriented manifold, or a vertex that cannot be interpolated; the
+/// @throws MeshError   nothing is left after repair, or a vertex cannot be interpolated; the
 ///   message names file, object and element
 /// @throws LimitError  not enough memory
 PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMesh mesh,
