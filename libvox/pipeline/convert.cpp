@@ -129,7 +129,7 @@ std::vector<Vec3d> verticesAtVoxelSize(SubdivisionLevel level, double voxelSize,
 void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, ConvertReport& report) {
   const std::size_t loops = boundaryLoops(level.mesh, level.adjacency).size();
   if (loops == 0) return;
-  constexpr const char* kWhy = ": faces are neighbours only where they name the same vertices";
+  constexpr const char* kWhy = ": faces are neighbours only where their vertices coincide exactly";
   const bool separate = loops >= level.mesh.faceCount();
   if (level.boundary == BoundaryStage::kPlain)
     report.warnings.push_back(name + " is open: it has " + std::to_string(loops) + " boundary " +
