@@ -2,6 +2,7 @@
 add_library(vox_warnings INTERFACE)
 target_compile_options(vox_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast
+  -Wno-restrict  # GCC 12 gives false alarms for std::string (its bug 105651)
   -ffp-contract=off  # the same bits on processors with and without fused multiply-add
 )
 if(VOX_SANITIZE)
