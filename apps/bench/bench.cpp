@@ -3,8 +3,6 @@
 
 #include "libvox/pipeline/convert.h"
 #include "libvox/subdivide/doo_sabin.h"
-#include "libvox/subdivide/stop.h"
-#include "libvox/voxelize/vertex.h"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -85,26 +83,6 @@ void cgalDooSabin(benchmark::State& state) {
 }
 BENCHMARK(cgalDooSabin)->Unit(benchmark::kMillisecond)->UseRealTime();
 #endif
-
-void largestSpan(benchmark::State& state) {
-  const SubdivisionLevel level = subdivide(baseLevel(torus()), kLevels - 1);
-  const auto image = imageVertices(level);
-  for (auto _ : state) benchmark::DoNotOptimize(largestChildSpan(level, image));
-  countVertices(state, image.size());
-}
-BENCHMARK(largestSpan)->Unit(benchmark::kMillisecond)->UseRealTime();
-
-void vertexConversion(benchmark::State& state) {
-  const SubdivisionLevel level = subdivide(baseLevel(torus()), kLevels);
-  std::vector<Vec3d> index = level.mesh.points;
-  for (Vec3d& p : index) p *= 400;
-  for (auto _ : state) {
-    openvdb::MaskGrid mask;
-    markVertices(index, mask);
-  }
-  countVertices(state, index.size());
-}
-BENCHMARK(vertexConversion)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void wholeConversion(benchmark::State& state) {
   Scene scene;
