@@ -1,6 +1,7 @@
 // In-process timings of the stages on a generated torus grid, beside CGAL's Doo-Sabin in the same
 // run. `vox_bench --benchmark_format=json` prints JSON; see --help for more.
 
+#include "apps/bench/inputs.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
@@ -15,30 +16,12 @@
 #include <CGAL/subdivision_method_3.h>
 #endif
 
-#include <cmath>
-#include <numbers>
-
 namespace {
 
 using namespace vox;
 
-/// Closed torus of 64 x 32 quads, major radius 1, minor 0.4.
 PolygonMesh torus() {
-  constexpr Index kMajor = 64;
-  constexpr Index kMinor = 32;
-  PolygonMesh mesh;
-  for (Index i = 0; i < kMajor; ++i)
-    for (Index j = 0; j < kMinor; ++j) {
-      const double u = 2 * std::numbers::pi * i / kMajor;
-      const double v = 2 * std::numbers::pi * j / kMinor;
-      const double r = 1 + 0.4 * std::cos(v);
-      mesh.points.emplace_back(r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v));
-    }
-  const auto at = [](Index i, Index j) { return i % kMajor * kMinor + j % kMinor; };
-  for (Index i = 0; i < kMajor; ++i)
-    for (Index j = 0; j < kMinor; ++j)
-      mesh.addFace(std::vector<Index>{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-  return mesh;
+  return bench::makeInput("torus");
 }
 
 constexpr int kLevels = 5;
