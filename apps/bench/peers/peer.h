@@ -1,0 +1,34 @@
+#pragma once
+
+#include "libvox/mesh/polygon_mesh.h"
+
+#include <openvdb/openvdb.h>
+
+#include <functional>
+#include <span>
+#include <string>
+
+/// What the peers share: programs that do what `vox convert --grids mask` does in the way its user
+/// would otherwise have done it. libvox only reads the mesh for them.
+namespace vox::peer {
+
+/// Refines a closed or open manifold, in voxels, and activates the voxels of its points.
+using Voxelize = std::function<void(const PolygonMesh& meshIndex, openvdb::MaskGrid& mask)>;
+
+/// Program `name`: reads a mesh, scales it to `--dim` voxels along the longest side of its box
+/// (world = voxel size x index), voxelizes it, writes grid "mask" to a file and prints "N active
+/// voxels". Returns the exit code: 0; 1 cannot be read, converted or written; 4 out of memory.
+int run(int argc, char** argv, const std::string& name, const std::string& what,
+        const Voxelize& voxelize);
+
+/// Longest L-inf edge of a triangulated face: the better diagonal of a quad, the diameter of
+/// others.
+double spanOf(std::span<const Vec3d> corners);
+
+/// Faces no longer than this leave no tunnel between the voxels of their corners.
+inline constexpr double kVoxel = 1;
+
+/// Voxel of a position: each coordinate rounded, halves up.
+openvdb::Coord voxelOf(double x, double y, double z);
+
+}  // namespace vox::peer
