@@ -57,6 +57,7 @@ TEST_CASE("benchmark inputs have the faces and valences their names state", "[be
   CHECK(faces("triangles") == Counts{{3, 100352}});
   CHECK(faces("triangles_shuffled") == Counts{{3, 100352}});
   CHECK(valences("triangles") == valences("triangles_shuffled"));
+  CHECK(faces("triangles_graded") == Counts{{3, 100352}});
   CHECK(faces("cone") == Counts{{3, 2000}, {2000, 1}});
   CHECK(valences("cone") == Counts{{3, 2000}, {2000, 1}});
   CHECK(faces("prism") == Counts{{4, 5000}, {5000, 2}});

@@ -105,8 +105,22 @@ void addBumps(PolygonMesh& mesh) {
     p *= 1 + 0.05 * std::sin(7 * p.x() + 1) * std::sin(6 * p.y() + 2) * std::sin(5 * p.z() + 3);
 }
 
+/// Moves points over the unit sphere, towards +x: faces there become small, at -x large.
+void grade(PolygonMesh& mesh) {
+  for (Vec3d& p : mesh.points) p = (p.normalized() + Vec3d(0.8, 0, 0)).normalized();
+}
+
+constexpr int kTrianglesSide = 112;  // 100 352 triangles
+
 PolygonMesh triangles() {
-  PolygonMesh mesh = octasphere(112);
+  PolygonMesh mesh = octasphere(kTrianglesSide);
+  addBumps(mesh);
+  return mesh;
+}
+
+PolygonMesh trianglesGraded() {
+  PolygonMesh mesh = octasphere(kTrianglesSide);
+  grade(mesh);
   addBumps(mesh);
   return mesh;
 }
@@ -215,10 +229,9 @@ PolygonMesh cutIntoQuads(const PolygonMesh& mesh) {
   return quads;
 }
 
-/// A sphere seen from a point well off its centre: faces near +x small, near -x large.
 PolygonMesh quads() {
   PolygonMesh mesh = cutIntoQuads(octasphere(16));
-  for (Vec3d& p : mesh.points) p = (p.normalized() + Vec3d(0.8, 0, 0)).normalized();
+  grade(mesh);
   addBumps(mesh);
   return mesh;
 }
@@ -231,6 +244,7 @@ const std::vector<Input>& inputs() {
       {"cube", "6 quads", cube},
       {"triangles", "bumpy sphere of 100352 triangles", triangles},
       {"triangles_shuffled", "the same in random order", trianglesShuffled},
+      {"triangles_graded", "as many, edges apart by about 10", trianglesGraded},
       {"cone", "apex of 2000 triangles over a 2000-gon", cone},
       {"prism", "two 5000-gons joined by quads", prism},
       {"sliver", "flat bar of strips, each 1000 times longer than wide", sliver},

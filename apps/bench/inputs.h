@@ -21,6 +21,7 @@ struct Input {
 ///   cube                [-1, 1]^3, 6 quads
 ///   triangles           bumpy sphere of 100 352 triangles
 ///   triangles_shuffled  the same, points and faces in random order (always the same one)
+///   triangles_graded    as many, edges apart by about 10, as in adaptive meshes and scans
 ///   cone                apex shared by 2000 triangles, closed by a 2000-gon
 ///   prism               two 5000-gons joined by 5000 quads
 ///   sliver              flat bar of 16 strips side by side, each 1000 times longer than wide

@@ -45,12 +45,12 @@ double largestSpan(const Mesh& mesh) {
   return largest;
 }
 
-void voxelize(const PolygonMesh& meshIndex, openvdb::MaskGrid& mask) {
+void voxelize(const PolygonMesh& meshIndex, double span, openvdb::MaskGrid& mask) {
   Mesh mesh = toCgal(meshIndex);
   do {
     CGAL::Subdivision_method_3::DooSabin_subdivision(mesh,
                                                      CGAL::parameters::number_of_iterations(1));
-  } while (largestSpan(mesh) > vox::peer::kVoxel);
+  } while (largestSpan(mesh) > span);
   auto voxels = mask.getAccessor();
   for (const auto v : mesh.vertices()) {
     const auto& p = mesh.point(v);

@@ -127,9 +127,9 @@ double largestSpan(const PolygonMesh& mesh) {
   return largest;
 }
 
-void voxelize(const PolygonMesh& meshIndex, openvdb::MaskGrid& mask) {
+void voxelize(const PolygonMesh& meshIndex, double span, openvdb::MaskGrid& mask) {
   PolygonMesh mesh = dooSabin(meshIndex);
-  while (largestSpan(mesh) > vox::peer::kVoxel) mesh = dooSabin(mesh);
+  while (largestSpan(mesh) > span) mesh = dooSabin(mesh);
   auto voxels = mask.getAccessor();
   for (const Vec3d& p : mesh.points) voxels.setValueOn(vox::peer::voxelOf(p.x(), p.y(), p.z()));
 }

@@ -25,20 +25,26 @@ double longestSide(const PolygonMesh& mesh) {
   return (high - low).maxCoeff();
 }
 
-void convert(const std::string& input, int dim, const std::string& output,
-             const Voxelize& voxelize) {
+struct Options {
+  std::string input;
+  std::string output;
+  int dim = 256;
+  double span = kDefaultSpan;
+};
+
+void convert(const Options& options, const Voxelize& voxelize) {
   openvdb::initialize();
-  PolygonMesh mesh = readMesh(input);
-  const double voxelSize = longestSide(mesh) / dim;
-  if (!(voxelSize > 0)) throw std::runtime_error(input + ": all points are equal");
+  PolygonMesh mesh = readMesh(options.input);
+  const double voxelSize = longestSide(mesh) / options.dim;
+  if (!(voxelSize > 0)) throw std::runtime_error(options.input + ": all points are equal");
   for (Vec3d& point : mesh.points) point /= voxelSize;
 
   const auto mask = openvdb::MaskGrid::create();
   mask->setName("mask");
   mask->setTransform(openvdb::math::Transform::createLinearTransform(voxelSize));
-  voxelize(mesh, *mask);
-  openvdb::io::File(output).write({mask});
-  std::cout << output << ": " << mask->activeVoxelCount() << " active voxels\n";
+  voxelize(mesh, options.span, *mask);
+  openvdb::io::File(options.output).write({mask});
+  std::cout << options.output << ": " << mask->activeVoxelCount() << " active voxels\n";
 }
 
 double distance(const Vec3d& a, const Vec3d& b) {
@@ -50,20 +56,21 @@ double distance(const Vec3d& a, const Vec3d& b) {
 int run(int argc, char** argv, const std::string& name, const std::string& what,
         const Voxelize& voxelize) {
   CLI::App app(what, name);
-  std::string input;
-  std::string output;
-  int dim = 256;
-  app.add_option("INPUT", input, "Mesh")->required();
-  app.add_option("-o,--output", output, "OpenVDB file to write")->required();
-  app.add_option("--dim", dim, "Voxels along the longest side of the input")
+  Options options;
+  app.add_option("INPUT", options.input, "Mesh")->required();
+  app.add_option("-o,--output", options.output, "OpenVDB file to write")->required();
+  app.add_option("--dim", options.dim, "Voxels along the longest side of the input")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
+      ->capture_default_str();
+  app.add_option("--span", options.span, "Longest face, in voxels, at which to stop")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
   constexpr int kFailed = 1;
   constexpr int kOutOfMemory = 4;
   try {
-    convert(input, dim, output, voxelize);
+    convert(options, voxelize);
     return 0;
   } catch (const std::bad_alloc&) {
     std::cerr << name << ": error: out of memory\n";

@@ -12,8 +12,16 @@
 /// would otherwise have done it. libvox only reads the mesh for them.
 namespace vox::peer {
 
-/// Refines a closed or open manifold, in voxels, and activates the voxels of its points.
-using Voxelize = std::function<void(const PolygonMesh& meshIndex, openvdb::MaskGrid& mask)>;
+/// Refines a closed or open manifold, in voxels, until no face is longer than `span` (spanOf), once
+/// at least, and activates the voxels of its points.
+using Voxelize =
+    std::function<void(const PolygonMesh& meshIndex, double span, openvdb::MaskGrid& mask)>;
+
+/// Faces up to 1 leave no tunnel between the voxels of their corners. vox stops at this instead,
+/// for rounding, and so do the peers, to do the same work for the same voxels; `--span 1` makes a
+/// difference where faces are exactly a voxel long: a cube of 2^n voxels is then done a level
+/// earlier.
+inline constexpr double kDefaultSpan = 0.999;
 
 /// Program `name`: reads a mesh, scales it to `--dim` voxels along the longest side of its box
 /// (world = voxel size x index), voxelizes it, writes grid "mask" to a file and prints "N active
@@ -24,9 +32,6 @@ int run(int argc, char** argv, const std::string& name, const std::string& what,
 /// Longest L-inf edge of a triangulated face: the better diagonal of a quad, the diameter of
 /// others.
 double spanOf(std::span<const Vec3d> corners);
-
-/// Faces no longer than this leave no tunnel between the voxels of their corners.
-inline constexpr double kVoxel = 1;
 
 /// Voxel of a position: each coordinate rounded, halves up.
 openvdb::Coord voxelOf(double x, double y, double z);
