@@ -1,7 +1,9 @@
-// In-process timings of the stages on a generated torus grid, beside CGAL's Doo-Sabin in the same
-// run. `vox_bench --benchmark_format=json` prints JSON; see --help for more.
+// In-process timings: of the stages on a generated torus grid, beside CGAL's Doo-Sabin in the same
+// run, and of whole conversions of every generated mesh. `vox_bench --benchmark_format=json` prints
+// JSON; see --help for more.
 
 #include "apps/bench/inputs.h"
+#include "libvox/core/error.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
@@ -9,6 +11,9 @@
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
+
+#include <string>
+#include <vector>
 
 #ifdef VOX_HAVE_CGAL
 #include <CGAL/Simple_cartesian.h>
@@ -89,25 +94,39 @@ void vertexConversion(benchmark::State& state) {
 }
 BENCHMARK(vertexConversion)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-void wholeConversion(benchmark::State& state) {
+/// From mesh to grid, in memory; voxels/s is to be held against that of the torus.
+void wholeConversion(benchmark::State& state, const bench::Input& input) {
   Scene scene;
-  scene.objects.push_back({"torus", torus()});
+  scene.objects.push_back({std::string(input.name), input.make()});
   ConvertOptions options;
   options.dim = static_cast<int>(state.range(0));
   options.grids = std::vector{GridKind::kMask};
   std::uint64_t voxels = 0;
-  for (auto _ : state) voxels = convert(scene, options).report.activeVoxels;
+  try {
+    for (auto _ : state) voxels = convert(scene, options).report.activeVoxels;
+  } catch (const LimitError& error) {
+    state.SkipWithError(error.what());
+    return;
+  }
   state.counters["voxels/s"] = benchmark::Counter(static_cast<double>(voxels),
                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK(wholeConversion)
-    ->Arg(256)
-    ->Arg(512)
-    ->Arg(1024)
-    ->ArgName("dim")
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+
+void registerConversions() {
+  for (const bench::Input& input : bench::inputs()) {
+    const std::string name = "wholeConversion/" + std::string(input.name);
+    auto* conversion = benchmark::RegisterBenchmark(name.c_str(), wholeConversion, input);
+    conversion->ArgName("dim")->Unit(benchmark::kMillisecond)->UseRealTime();
+    conversion->Arg(256)->Arg(512)->Arg(1024);
+  }
+}
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  registerConversions();
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}
