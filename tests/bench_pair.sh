@@ -63,7 +63,7 @@ assert b["status"] == "out of memory", b
 PYTHON
 
 # Mistakes, exit code 2.
-for mistake in '' 'true' 'true true --suite issue' '--suite none' '--scaling cube --dims 0'; do
+for mistake in '' 'true' 'true true --suite issue' '--suite none' '--scaling cube --dims 0' 'true true --dims 64'; do
   code=0
   "$pair" $mistake >stdout 2>stderr || code=$?
   [ "$code" -eq 2 ] || { echo "vox_bench_pair $mistake: exit code $code"; exit 1; }

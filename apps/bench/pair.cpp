@@ -25,6 +25,7 @@ struct Options {
   std::string commandA;
   std::string commandB;
   std::string suite;
+  std::string only;
   UserInput input;
   std::string scaling;
   std::vector<int> dims = {256, 512, 1024};
@@ -67,55 +68,69 @@ std::vector<std::string> wordsOf(const std::string& command) {
   return words;
 }
 
-void declare(CLI::App& app, Options& options) {
-  app.add_option("A", options.commandA, "First command, one word to the shell: 'vox info a.obj'")
-      ->group("Two commands");
-  app.add_option("B", options.commandB, "Second command; ratios are B / A")->group("Two commands");
-  app.add_option("--suite", options.suite,
-                 "issue: vox against loading OpenVDB, CGAL and a naive program; "
-                 "hard: vox on meshes that invite a blow-up, against a torus")
-      ->check(CLI::IsMember(suiteNames()))
-      ->group("Built-in comparisons");
-  app.add_option("--input", options.input.file, "A mesh of yours to compare on besides")
-      ->type_name("FILE")
-      ->group("Built-in comparisons");
-  app.add_option("--input-dim", options.input.dim, "Its resolution")
+void declareSuites(CLI::App& app, Options& options) {
+  CLI::App* group = app.add_option_group("Built-in comparisons");
+  CLI::Option* suite =
+      group
+          ->add_option("--suite", options.suite,
+                       "issue: vox against loading OpenVDB, CGAL and a naive program; "
+                       "hard: vox on meshes that invite a blow-up, against a torus")
+          ->check(CLI::IsMember(suiteNames()));
+  group->add_option("--only", options.only, "Only comparisons whose name contains this")
+      ->needs(suite)
+      ->type_name("TEXT");
+  group->add_option("--input", options.input.file, "With issue: a mesh of yours to compare on, too")
+      ->needs(suite)
+      ->type_name("FILE");
+  group->add_option("--input-dim", options.input.dim, "Its resolution")
+      ->needs(suite)
       ->capture_default_str()
-      ->check(CLI::PositiveNumber)
-      ->group("Built-in comparisons");
-  app.add_option("--scaling", options.scaling,
-                 "Growth of time and memory with the output: a mesh file or a generated mesh")
-      ->type_name("INPUT")
-      ->group("Scaling");
-  app.add_option("--dims", options.dims, "Resolutions, with commas")
+      ->check(CLI::PositiveNumber);
+}
+
+void declareScaling(CLI::App& app, Options& options) {
+  CLI::App* group = app.add_option_group("Scaling");
+  CLI::Option* scaling =
+      group
+          ->add_option("--scaling", options.scaling,
+                       "Growth of time and memory with the output: a mesh file or a generated mesh")
+          ->type_name("INPUT");
+  group->add_option("--dims", options.dims, "Resolutions, with commas")
+      ->needs(scaling)
       ->delimiter(',')
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  group->add_option("--threads", options.threads, "Threads to compare with one")
+      ->needs(scaling)
       ->capture_default_str()
-      ->group("Scaling");
-  app.add_option("--threads", options.threads, "Threads to compare with one")
+      ->check(CLI::PositiveNumber);
+}
+
+void declareRun(CLI::App& app, Options& options) {
+  CLI::App* group = app.add_option_group("Run");
+  group->add_option("--runs", options.runs, "Pairs of runs: A B A B ...")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber)
-      ->group("Scaling");
-  app.add_option("--runs", options.runs, "Pairs of runs: A B A B ...")
+      ->check(CLI::PositiveNumber);
+  group->add_option("--timeout", options.limits.timeoutSeconds, "Seconds until a run is killed")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber)
-      ->group("Run");
-  app.add_option("--timeout", options.limits.timeoutSeconds, "Seconds after which a run is killed")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber)
-      ->group("Run");
-  app.add_option("--max-memory", options.limits.memoryBytes,
-                 "Address space of a run, such as 512M or 16G (default: no limit)")
+      ->check(CLI::PositiveNumber);
+  group
+      ->add_option("--max-memory", options.limits.memoryBytes,
+                   "Address space of a run, such as 512M or 16G (default: no limit)")
       ->transform(CLI::AsSizeValue(false))
-      ->type_name("SIZE")
-      ->group("Run");
-  app.add_option("--json", options.json, "Write the numbers to a file, too")
-      ->type_name("FILE")
-      ->group("Run");
-  app.add_option("--vox", options.vox, "The vox to measure (default: the one built along)")
-      ->type_name("FILE")
-      ->group("Run");
-  app.add_flag("-q,--quiet", options.quiet, "Do not say on stderr what runs")->group("Run");
+      ->type_name("SIZE");
+  group->add_option("--json", options.json, "Write the numbers to a file, too")->type_name("FILE");
+  group->add_option("--vox", options.vox, "The vox to measure (default: the one built along)")
+      ->type_name("FILE");
+  group->add_flag("-q,--quiet", options.quiet, "Do not say on stderr what runs");
+}
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("A", options.commandA, "First command, one word to the shell: 'vox info a.obj'");
+  app.add_option("B", options.commandB, "Second command; ratios are B / A");
+  declareSuites(app, options);
+  declareScaling(app, options);
+  declareRun(app, options);
 }
 
 /// @throws CLI::ValidationError  not exactly one thing is asked for
@@ -151,6 +166,7 @@ class Run {
     }
     json["comparisons"] = nlohmann::ordered_json::array();
     for (const Case& one : cases()) {
+      if (one.name.find(options_.only) == std::string::npos) continue;
       const Comparison comparison =
           compare(one.name, one.a, one.b, options_.runs, options_.limits, progress_);
       std::cout << tableOf(comparison) << std::endl;

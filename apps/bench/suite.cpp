@@ -81,7 +81,7 @@ Program openvdbFloor(const Tools& tools) {
 
 std::filesystem::path meshNamed(const Tools& tools, const std::string& name,
                                 const std::filesystem::path& folder) {
-  if (std::filesystem::exists(name)) return name;
+  if (std::filesystem::is_regular_file(name)) return name;
   const std::filesystem::path file = folder / (name + ".obj");
   if (std::filesystem::exists(file)) return file;
   const ProcessRun run = runProcess({tools.inputsWriter.string(), name, file.string()}, {});
