@@ -11,6 +11,24 @@
 #include <algorithm>
 #include <cstring>
 
+#ifndef VOX_LEAF_CACHE_SHARED
+#define VOX_LEAF_CACHE_SHARED
+namespace vox {
+namespace {
+
+constexpr std::size_t kLeafMarks = 512;
+constexpr std::size_t kBrickLeaves = LeafCache::kMarks / kLeafMarks;
+
+/// Leaves that had marks, by their number in the list, and their bits.
+struct PackedLeaves {
+  std::array<std::uint8_t, kBrickLeaves + 1> number;
+  alignas(64) std::array<LeafWords, kBrickLeaves + 1> words;
+};
+
+}  // namespace
+}  // namespace vox
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace vox::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -18,7 +36,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Turns the 512 marks of a leaf into bits and clears them.
 /// @return whether there were any
 #if HWY_TARGET == HWY_SCALAR
-bool packLeaf(std::uint8_t* marks, std::uint64_t* words) {
+inline bool packLeaf(std::uint8_t* marks, std::uint64_t* words) {
   std::uint64_t any = 0;
   for (std::size_t word = 0; word < 8; ++word) {
     words[word] = 0;
@@ -26,14 +44,13 @@ bool packLeaf(std::uint8_t* marks, std::uint64_t* words) {
       words[word] |= std::uint64_t{marks[64 * word + bit] != 0} << bit;
     any |= words[word];
   }
-  if (any != 0) std::fill_n(marks, 512, std::uint8_t{0});
+  if (any != 0) std::fill_n(marks, kLeafMarks, std::uint8_t{0});
   return any != 0;
 }
 #else
-bool packLeaf(std::uint8_t* HWY_RESTRICT marks, std::uint64_t* HWY_RESTRICT words) {
+inline bool packLeaf(std::uint8_t* HWY_RESTRICT marks, std::uint64_t* HWY_RESTRICT words) {
   const hn::CappedTag<std::uint8_t, 64> bytes;
   const hn::Repartition<std::int8_t, decltype(bytes)> signs;
-  constexpr std::size_t kLeafMarks = 512;
   const std::size_t lanes = hn::Lanes(bytes);
   auto any = hn::Zero(bytes);
   for (std::size_t i = 0; i < kLeafMarks; i += lanes) any = hn::Or(any, hn::Load(bytes, marks + i));
@@ -48,6 +65,18 @@ bool packLeaf(std::uint8_t* HWY_RESTRICT marks, std::uint64_t* HWY_RESTRICT word
 }
 #endif
 
+/// Packs several leaves, given by their slots.
+/// @return how many had marks
+std::size_t packLeaves(std::uint8_t* marks, const std::uint8_t* slots, std::size_t count,
+                       PackedLeaves& packed) {
+  std::size_t touched = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    packed.number[touched] = static_cast<std::uint8_t>(k);
+    touched += packLeaf(marks + slots[k] * kLeafMarks, packed.words[touched].data());
+  }
+  return touched;
+}
+
 }  // namespace vox::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -55,9 +84,8 @@ HWY_AFTER_NAMESPACE();
 namespace vox {
 namespace {
 
-HWY_EXPORT(packLeaf);
+HWY_EXPORT(packLeaves);
 
-constexpr std::size_t kLeafMarks = 512;
 constexpr std::align_val_t kAlignment{64};
 
 }  // namespace
@@ -67,61 +95,61 @@ void LeafCache::FreeMarks::operator()(std::uint8_t* marks) const {
 }
 
 LeafCache::LeafCache(SurfaceGrid& grid)
-    : grid_(grid), marks_(static_cast<std::uint8_t*>(::operator new[](kMarks, kAlignment))) {
+    : grid_(grid),
+      marks_(static_cast<std::uint8_t*>(::operator new[](kMarks, kAlignment))),
+      entries_(std::size_t{1} << (3 * kCacheLog2)) {
   std::fill_n(marks_.get(), kMarks, std::uint8_t{0});
-  // Each slot starts with a leaf that belongs there, so that no slot is special.
-  for (std::size_t slot = 0; slot < leaves_.size(); ++slot)
-    leaves_[slot] = {static_cast<std::int32_t>(slot >> 4U),
-                     static_cast<std::int32_t>(slot >> 2U & 3U),
-                     static_cast<std::int32_t>(slot & 3U), 0};
 }
 
-void LeafCache::claimLeaf(std::int32_t x, std::int32_t y, std::int32_t z) {
-  constexpr std::int32_t kMask = kSide - 1;
-  const auto slot = static_cast<std::size_t>((x & kMask) << 4 | (y & kMask) << 2 | (z & kMask));
-  const LeafCoord leaf = {x, y, z, 0};
-  if (leaves_[slot] == leaf) return;
-  send(slot);
-  leaves_[slot] = leaf;
-}
-
-void LeafCache::claim(const openvdb::Coord& low, const openvdb::Coord& high) {
+void LeafCache::collect(const openvdb::Coord& low, const openvdb::Coord& high) {
   const openvdb::Coord first = low >> kLeafLog2;
   const openvdb::Coord last = high >> kLeafLog2;
+  constexpr std::int32_t kMask = kBrickSide - 1;
+  std::array<std::uint8_t, kBrickLeaves> slots;
+  std::array<LeafCoord, kBrickLeaves> leaves;
+  std::size_t count = 0;
   for (std::int32_t x = first.x(); x <= last.x(); ++x)
     for (std::int32_t y = first.y(); y <= last.y(); ++y)
-      for (std::int32_t z = first.z(); z <= last.z(); ++z) claimLeaf(x, y, z);
+      for (std::int32_t z = first.z(); z <= last.z(); ++z) {
+        slots[count] = static_cast<std::uint8_t>((x & kMask) << 4 | (y & kMask) << 2 | (z & kMask));
+        leaves[count++] = {x, y, z};
+      }
+  PackedLeaves packed;
+  const std::size_t touched =
+      HWY_DYNAMIC_DISPATCH(packLeaves)(marks_.get(), slots.data(), count, packed);
+  for (std::size_t k = 0; k < touched; ++k) {
+    const LeafCoord& leaf = leaves[packed.number[k]];
+    LeafWords& bits = wordsOf(leaf[0], leaf[1], leaf[2]);
+    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] |= packed.words[k][i];
+  }
 }
 
-void LeafCache::mark(const openvdb::Coord& voxel) {
-  claim(voxel, voxel);
-  const auto bits = [](std::int32_t v, int low, int count, int to) {
-    return static_cast<std::size_t>(v >> low & ((1 << count) - 1)) << to;
-  };
-  const std::size_t inLeaf =
-      bits(voxel.z(), 0, 3, 0) | bits(voxel.y(), 0, 3, 3) | bits(voxel.x(), 0, 3, 6);
-  const std::size_t ofLeaf =
-      bits(voxel.z(), 3, 2, 9) | bits(voxel.y(), 3, 2, 11) | bits(voxel.x(), 3, 2, 13);
-  marks_[inLeaf | ofLeaf] = kMarked;
+void LeafCache::replace(Entry& entry, std::int32_t x, std::int32_t y, std::int32_t z) {
+  if (entry.used) send(entry);
+  entry.words.fill(0);
+  entry.leaf = {x, y, z};
+  entry.used = true;
 }
 
-void LeafCache::send(std::size_t slot) {
-  alignas(64) LeafWords words;
-  if (!HWY_DYNAMIC_DISPATCH(packLeaf)(marks_.get() + slot * kLeafMarks, words.data())) return;
-  const LeafCoord& leaf = leaves_[slot];
-  const openvdb::Coord origin(leaf[0] << kLeafLog2, leaf[1] << kLeafLog2, leaf[2] << kLeafLog2);
-  constexpr std::int32_t kPageMask = ~127;
+void LeafCache::send(const Entry& entry) {
+  const openvdb::Coord origin(entry.leaf[0] << kLeafLog2, entry.leaf[1] << kLeafLog2,
+                              entry.leaf[2] << kLeafLog2);
+  constexpr std::int32_t kPage = 128;
+  constexpr std::int32_t kPageMask = ~(kPage - 1);
   const openvdb::Coord pageOrigin(origin.x() & kPageMask, origin.y() & kPageMask,
                                   origin.z() & kPageMask);
-  if (page_ == nullptr || pageOrigin != pageOrigin_) {
-    page_ = &grid_.pageOf(origin);
-    pageOrigin_ = pageOrigin;
-  }
-  grid_.add(*page_, origin, words);
+  const auto odd = [](std::int32_t v) { return (v & kPage) != 0 ? 1U : 0U; };
+  KnownPage& known = pages_[4 * odd(origin.x()) + 2 * odd(origin.y()) + odd(origin.z())];
+  if (known.page == nullptr || known.origin != pageOrigin)
+    known = {pageOrigin, &grid_.pageOf(origin)};
+  grid_.add(*known.page, origin, entry.words);
 }
 
 void LeafCache::flush() {
-  for (std::size_t slot = 0; slot < leaves_.size(); ++slot) send(slot);
+  for (Entry& entry : entries_) {
+    if (entry.used) send(entry);
+    entry.used = false;
+  }
 }
 
 }  // namespace vox

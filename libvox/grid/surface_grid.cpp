@@ -16,6 +16,9 @@ using Upper = openvdb::MaskTree::RootNodeType::ChildNodeType;
 /// What the heap needs for an object besides its size.
 constexpr std::uint64_t kHeapOverhead = 16;
 
+/// Leaves of a page are accounted for by so many; a page itself counts as hundreds.
+constexpr std::uint32_t kLeavesPerAccount = 16;
+
 }  // namespace
 
 SurfaceGrid::~SurfaceGrid() {
@@ -50,7 +53,10 @@ void SurfaceGrid::add(Page& page, const openvdb::Coord& leafOrigin, const LeafWo
   }
   Leaf* leaf = page.node->probeLeaf(leafOrigin);
   if (leaf == nullptr) {
-    account(sizeof(Leaf) + kHeapOverhead);
+    if (++page.newLeaves == kLeavesPerAccount) {
+      account(kLeavesPerAccount * (sizeof(Leaf) + kHeapOverhead));
+      page.newLeaves = 0;
+    }
     leaf = new Leaf(leafOrigin, false);
     page.node->addLeaf(leaf);
   }

@@ -34,6 +34,7 @@ class SurfaceGrid {
   struct Page {
     tbb::spin_mutex lock;
     PageNode* node = nullptr;
+    std::uint32_t newLeaves = 0;  // since memory was last accounted for
   };
 
   /// The page of a voxel; made when it is not there. Valid as long as the grid. Thread-safe.

@@ -4,14 +4,16 @@
 
 #include <openvdb/math/Coord.h>
 
-#include <cmath>
-
 namespace vox {
 
 /// Voxel that holds a position (index space, |coordinate| < 2^31): each coordinate rounded, halves
 /// up. The one rounding rule of the program.
 inline openvdb::Coord voxelOf(const Vec3d& positionIndex) {
-  const auto round = [](double x) { return static_cast<openvdb::Int32>(std::floor(x + 0.5)); };
+  const auto round = [](double x) {
+    const auto towardsZero =
+        static_cast<openvdb::Int32>(x + 0.5);  // floor() is a call on old targets
+    return towardsZero - (x + 0.5 < towardsZero ? 1 : 0);
+  };
   return {round(positionIndex.x()), round(positionIndex.y()), round(positionIndex.z())};
 }
 

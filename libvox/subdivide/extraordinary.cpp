@@ -61,12 +61,15 @@ double edgeDiameter(const ExtraordinaryFace& face, std::size_t i) {
   return quadDiameter(a, b, face.far[i], face.near[i]);
 }
 
-bool fineAround(const ExtraordinaryFace& face, std::size_t i) {
+/// Largest diameter of the faces that touch corner i only or across an edge.
+double diameterAround(const ExtraordinaryFace& face, std::size_t i) {
   const std::size_t j = before(face, i);
-  return (!face.hasEdge[i] || edgeDiameter(face, i) <= kVertexConversionSpan) &&
-         (!face.hasEdge[j] || edgeDiameter(face, j) <= kVertexConversionSpan) &&
-         (!face.hasCorner[i] || quadDiameter(face.inner[i], face.near[i], face.corner[i],
-                                             face.far[j]) <= kVertexConversionSpan);
+  double size = 0;
+  if (face.hasEdge[i]) size = edgeDiameter(face, i);
+  if (face.hasEdge[j]) size = std::max(size, edgeDiameter(face, j));
+  if (face.hasCorner[i])
+    size = std::max(size, quadDiameter(face.inner[i], face.near[i], face.corner[i], face.far[j]));
+  return size;
 }
 
 VertexSplit splitAt(const ExtraordinaryFace& face, const std::vector<Vec3d>& images,
@@ -110,30 +113,39 @@ void ExtraordinaryFace::reset(std::size_t n) {
 
 void ExtraordinarySubdivision::run(ExtraordinaryFace& face, int level, SurfaceSink& sink) {
   const std::size_t n = face.inner.size();
+  const double contractionHere = std::max(contraction(n), contraction(4));
   next_ = face;
   for (;; ++level) {
     requireDepth(level);
-    if (faceDiameter(face, innerImages_) <= kVertexConversionSpan) {
-      finished_.clear();
-      for (std::size_t i = 0; i < n; ++i) {
-        if (!face.active[i] || !fineAround(face, i)) continue;
-        finished_.push_back(face.inner[i]);
-        face.active[i] = false;
-      }
-      if (!finished_.empty()) sink.points(finished_, level);
-    }
-    if (std::find(face.active.begin(), face.active.end(), true) == face.active.end()) return;
-
     innerImages_.resize(n);
     images_.of(face.inner, innerImages_);
+    const double size = faceDiameter(face, work_);
+    finished_.clear();
+    finishedChildren_.clear();
     std::fill(next_.active.begin(), next_.active.end(), false);
+    bool done = true;
     for (std::size_t i = 0; i < n; ++i) {
       if (!face.active[i]) continue;
+      const double largest = std::max(size, diameterAround(face, i));
+      if (largest <= kVertexConversionSpan) {
+        finished_.push_back(face.inner[i]);
+        continue;
+      }
       const VertexSplit split = splitAt(face, innerImages_, i);
+      if (!mirrored(face) && split.hasR && split.hasL && split.hasK &&
+          childrenFineEnough(largest, contractionHere)) {
+        for (const Vec3d& child : {split.f0, split.r[0], split.l[0], split.k0})
+          finishedChildren_.push_back(child);
+        continue;
+      }
       split.emitSides(level + 1, sink);
       split.emitInK(level + 1, sink);
       descend(split, i, next_);
+      done = false;
     }
+    if (!finished_.empty()) sink.points(finished_, level);
+    if (!finishedChildren_.empty()) sink.points(finishedChildren_, level + 1);
+    if (done) return;
     next_.inner = innerImages_;
     std::swap(face, next_);
   }

@@ -42,7 +42,9 @@ class ExtraordinarySubdivision {
   FaceImages images_;
   ExtraordinaryFace next_;
   std::vector<Vec3d> finished_;
+  std::vector<Vec3d> finishedChildren_;
   std::vector<Vec3d> innerImages_;
+  std::vector<Vec3d> work_;
 };
 
 /// The corner of a boundary vertex with one face: u has the triangle T = [u, mEnd, mStart] on the

@@ -56,6 +56,23 @@ class Decisions {
       levelsToGo_[v] = patchDepth(*patch);
     else if (largestFace(ring) <= kVertexConversionSpan)
       levelsToGo_[v] = 0;
+    else if (ring.closed && !touchesStrip(ring) &&
+             childrenFineEnough(largestFace(ring), largestContraction(ring)))
+      levelsToGo_[v] = 1;
+  }
+
+  bool touchesStrip(const OneRing& ring) const {
+    return strips_ && std::any_of(ring.corners.begin(), ring.corners.end(), [&](Index c) {
+             const auto face = mesh_.face(faceOf(c));
+             return std::any_of(face.begin(), face.end(), [&](Index v) { return onBoundary_[v]; });
+           });
+  }
+
+  double largestContraction(const OneRing& ring) const {
+    double largest = 0;
+    for (const Index c : ring.corners)
+      largest = std::max(largest, contraction(mesh_.faceSize(faceOf(c))));
+    return largest;
   }
 
   double largestFace(const OneRing& ring) const {

@@ -145,7 +145,8 @@ void LocalImages::addEdge(Index slot, Index corner) {
   const Vec3d b = imageAt(next);
   EdgeFace& edge = edges_[slot];
   edge = {};
-  edge.exists = t != kNone || extends();
+  edge.interior = t != kNone;
+  edge.exists = edge.interior || extends();
   if (!edge.exists) return;
   Vec3d nearReal;
   Vec3d farReal;

@@ -33,6 +33,7 @@ class LocalImages {
     Vec3d far = Vec3d::Zero();   ///< the point across from the next corner
     double diameter = 0;         ///< of its real half
     bool exists = true;
+    bool interior = false;  ///< no boundary edge
   };
 
   /// @param base  level 0: an oriented manifold with one fan of faces at each vertex

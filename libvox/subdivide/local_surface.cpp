@@ -26,6 +26,7 @@ void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
   for (auto* points : {&starImages_, &starNear_, &starFar_, &starCorner_})
     points->resize(starPoints);
   finished_.clear();
+  finishedChildren_.clear();
 
   Index slot = 0;
   for (const Index f : faces) {
@@ -35,30 +36,36 @@ void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
     slot += size;
   }
   if (!finished_.empty()) sink.points(finished_, 1);
+  if (!finishedChildren_.empty()) sink.points(finishedChildren_, 2);
   emitStars(sink);
 }
 
 void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
   const auto points = images_.imagesOfFace(firstSlot, size);
   const double faceDiameter = diameter(points);
-  undecided_.assign(size, false);
-  bool any = false;
-  for (Index i = 0; i < size; ++i)
-    if (!emitAtLevelOne({firstSlot, i, size}, faceDiameter, sink)) {
-      undecided_[i] = true;
-      any = true;
-    }
-  if (!any) return;
+  todo_.clear();
+  bool deep = false;
+  for (Index i = 0; i < size; ++i) {
+    const Corner at{firstSlot, i, size};
+    if (emitAtLevelOne(at, faceDiameter, sink)) continue;
+    const bool last = childrenAreFine(at, faceDiameter);
+    todo_.push_back({at, last});
+    deep |= !last;
+  }
+  if (todo_.empty()) return;
 
   facePoints_.resize(size);
   faceImages_.of(points, facePoints_);
-  if (size != 4) {
+  if (deep && size != 4) {
     around_.reset(size);
     around_.inner = facePoints_;
   }
-  for (Index i = 0; i < size; ++i)
-    if (undecided_[i]) split({firstSlot, i, size}, sink);
-  if (size != 4) extraordinary_.run(around_, 2, sink);
+  for (const auto& [at, last] : todo_)
+    if (last)
+      finishChildren(at);
+    else
+      split(at, sink);
+  if (deep && size != 4) extraordinary_.run(around_, 2, sink);
 }
 
 /// The surroundings of a level-1 vertex in a quad whose V-face is a quad or missing.
@@ -90,6 +97,29 @@ bool LocalSurface::emitAtLevelOne(const Corner& at, double faceDiameter, Surface
   if (size > kVertexConversionSpan) return false;
   finished_.push_back(images_.image(at.slot()));
   return true;
+}
+
+/// Whether the step at an irregular vertex is the last one.
+bool LocalSurface::childrenAreFine(const Corner& at, double faceDiameter) const {
+  const LocalImages::Star& star = images_.star(at.slot());
+  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
+  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
+  if (!star.closed || !right.interior || !left.interior) return false;
+  const double size = std::max({faceDiameter, right.diameter, left.diameter, star.diameter});
+  return childrenFineEnough(
+      size, std::max({contraction(at.size), contraction(star.size), contraction(4)}));
+}
+
+/// The last step at a level-1 vertex inside the surface.
+void LocalSurface::finishChildren(const Corner& at) {
+  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
+  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
+  const Vec3d& center = images_.image(at.slot());
+  const LocalImages::Star& star = subdividedStar(at);
+  finishedChildren_.push_back(facePoints_[at.place]);
+  finishedChildren_.push_back(quadImage(center, images_.image(at.next()), right.near, right.far));
+  finishedChildren_.push_back(quadImage(center, images_.image(at.previous()), left.far, left.near));
+  finishedChildren_.push_back(starImages_[star.begin + images_.placeInStar(at.slot())]);
 }
 
 /// One step at a level-1 vertex: emits its regular children and hands the others to the face and
@@ -127,23 +157,30 @@ void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
         2, sink);
 }
 
-/// Level 2 in the V-face; computed for the whole star when somebody first asks.
-void LocalSurface::splitInStar(const Corner& at, VertexSplit& split) {
+/// The star of a corner, once its level 2 has been computed.
+const LocalImages::Star& LocalSurface::subdividedStar(const Corner& at) {
   const LocalImages::Star& star = images_.star(at.slot());
-  split.hasK = star.closed || images_.extends();
+  const Index number = images_.starNumber(at.slot());
+  if (!starKnown_[number])
+    faceImages_.of(std::span(images_.starPoints()).subspan(star.begin, star.size),
+                   std::span(starImages_).subspan(star.begin, star.size));
+  starKnown_[number] = true;
+  return star;
+}
+
+/// Level 2 in the V-face.
+void LocalSurface::splitInStar(const Corner& at, VertexSplit& split) {
+  split.hasK = images_.star(at.slot()).closed || images_.extends();
   if (!split.hasK) return;
-  if (star.size == 1) {
+  if (images_.star(at.slot()).size == 1) {
+    const LocalImages::Star& star = images_.star(at.slot());
     const TriangleImages t(images_.image(at.slot()), star.mStart, star.mEnd);
     split.k0 = t.u;
     split.kRight = 2.0 * t.mStart - t.u;
     split.kLeft = 2.0 * t.mEnd - t.u;
     return;
   }
-  const Index number = images_.starNumber(at.slot());
-  if (!starKnown_[number])
-    faceImages_.of(std::span(images_.starPoints()).subspan(star.begin, star.size),
-                   std::span(starImages_).subspan(star.begin, star.size));
-  starKnown_[number] = true;
+  const LocalImages::Star& star = subdividedStar(at);
   const Index place = images_.placeInStar(at.slot());
   split.k0 = starImages_[star.begin + place];
   split.kRight = starImages_[before(star, place)];

@@ -45,6 +45,9 @@ class LocalSurface {
   void emitFace(Index firstSlot, Index size, SurfaceSink& sink);
   bool emitAtLevelOne(const Corner& corner, double faceDiameter, SurfaceSink& sink);
   Patch patchAt(const Corner& corner) const;
+  bool childrenAreFine(const Corner& corner, double faceDiameter) const;
+  void finishChildren(const Corner& corner);
+  const LocalImages::Star& subdividedStar(const Corner& corner);
   void split(const Corner& corner, SurfaceSink& sink);
   void splitInStar(const Corner& corner, VertexSplit& split);
   void joinFace(const Corner& corner, const VertexSplit& split);
@@ -55,10 +58,15 @@ class LocalSurface {
   LocalImages images_;
   FaceImages faceImages_;
   std::vector<Vec3d> finished_;          // level-1 vertices that are fine enough
+  std::vector<Vec3d> finishedChildren_;  // level-2 vertices that are
   std::vector<Vec3d> facePoints_;        // level 2 of one face
-  std::vector<std::uint8_t> undecided_;  // per corner of one face
-  ExtraordinaryFace around_;             // that face, if it is no quad
-  std::vector<Vec3d> starImages_;        // level 2 of the stars, where needed
+  struct Todo {
+    Corner at;
+    bool last;  // its children are fine enough
+  };
+  std::vector<Todo> todo_;         // corners of one face
+  ExtraordinaryFace around_;       // that face, if it is no quad
+  std::vector<Vec3d> starImages_;  // level 2 of the stars, where needed
   std::vector<std::uint8_t> starKnown_;
   std::vector<Vec3d> starNear_, starFar_, starCorner_;  // as ExtraordinaryFace, per point of a star
   std::vector<std::uint8_t> starActive_;

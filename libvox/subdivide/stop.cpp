@@ -2,6 +2,7 @@
 
 #include "libvox/subdivide/stop.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vox {
@@ -37,14 +38,25 @@ Vec3d stepsOfExistingFaces(const Patch& patch) {
 
 }  // namespace
 
-double diameter(std::span<const Vec3d> points) {
-  Vec3d low = points[0];
-  Vec3d high = points[0];
-  for (const Vec3d& point : points.subspan(1)) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
+double contraction(std::size_t sides) {
+  switch (sides) {
+    case 3:
+      return 1.36;
+    case 4:
+      return 1.25;
+    case 5:
+      return 1.48;
+    case 6:
+      return 1.63;
+    case 7:
+      return 1.68;
+    default:
+      return 3 - 9.4 / static_cast<double>(sides);
   }
-  return (high - low).maxCoeff();
+}
+
+bool childrenFineEnough(double largestDiameter, double largestContraction) {
+  return largestContraction * largestDiameter <= 2 * kVertexConversionSpan;
 }
 
 int patchDepth(const Patch& patch) {

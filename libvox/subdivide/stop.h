@@ -17,7 +17,23 @@ namespace vox {
 inline constexpr double kVertexConversionSpan = 0.999;
 
 /// L-inf diameter of some points: the longest side of their box. Not of an empty set.
-double diameter(std::span<const Vec3d> points);
+inline double diameter(std::span<const Vec3d> points) {
+  Vec3d low = points[0];
+  Vec3d high = points[0];
+  for (const Vec3d& point : points.subspan(1)) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return (high - low).maxCoeff();
+}
+
+/// The C(n) of DESIGN section 5 for a face of n sides: faces k levels down measure at most 2^-k
+/// times the largest diameter around a vertex, times the largest C around it.
+double contraction(std::size_t sides);
+
+/// Whether all four children of an irregular vertex are fine enough, from the largest diameter and
+/// the largest contraction of the faces around it, none of them a strip face.
+bool childrenFineEnough(double largestDiameter, double largestContraction);
 
 /// Levels below a regular vertex at which every descendant is fine enough; 0 if it is so itself.
 /// Differences between neighbours are halved by every level and averaged, so that all faces k

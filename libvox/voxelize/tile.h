@@ -31,8 +31,8 @@ using TileControls = std::array<std::array<std::array<double, 3>, 3>, 3>;
 TileControls tileControls(const Patch& patch);
 
 /// Marks the voxels of all N x N vertices of a tile, N = 2^k with kLeastTileLevels <= k <=
-/// kMostTileLevels, in the bytes of a LeafCache that has claimed them. The same bits on every
-/// processor: additions of integers, after products and sums of doubles in a fixed order.
+/// kMostTileLevels, in the bytes of a LeafCache. The same bits on every processor: additions of
+/// integers, after products and sums of doubles in a fixed order.
 void markTile(const TileControls& controls, int k, std::uint8_t* marks);
 
 /// The same arithmetic without the marks: sum of all stepped coordinates, modulo 2^32. What

@@ -38,8 +38,8 @@ struct VoxelBox {
 
 bool fitsLeafCache(const VoxelBox& box) {
   const Coord leaves = (box.high >> LeafCache::kLeafLog2) - (box.low >> LeafCache::kLeafLog2);
-  return leaves.x() < LeafCache::kSide && leaves.y() < LeafCache::kSide &&
-         leaves.z() < LeafCache::kSide;
+  return leaves.x() < LeafCache::kBrickSide && leaves.y() < LeafCache::kBrickSide &&
+         leaves.z() < LeafCache::kBrickSide;
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ std::array<std::array<Patch, 2>, 2> childrenOf(const Patch& patch) {
 }
 
 void VertexSink::mark(const Vec3d& position) {
-  cache_.mark(voxelOf(position));
+  cache_.add(voxelOf(position));
 }
 
 void VertexSink::points(std::span<const Vec3d> points, int level) {
@@ -121,8 +121,8 @@ void VertexSink::markWhole(const Patch& patch, int k) {
   if (k <= kMostTileLevels) {
     const VoxelBox box(patch);
     if (fitsLeafCache(box)) {
-      cache_.claim(box.low, box.high);
       markTile(tileControls(patch), k, cache_.marks());
+      cache_.collect(box.low, box.high);
       return;
     }
   }
