@@ -85,6 +85,25 @@ TEST_CASE("no path of white voxels joins the sides of a closed surface", "[pipel
     }
 }
 
+TEST_CASE("no path of white voxels joins the sides of a long thin bar", "[pipeline][property]") {
+  // Its patches go out as rows: see that these still separate, whatever the angle.
+  for (const double angle : {0.0, 0.3, 0.7853981633974483}) {
+    CAPTURE(angle);
+    PolygonMesh bar = test::cube();
+    for (Vec3d& p : bar.points)
+      p = Vec3d(12 * p.x() * std::cos(angle) - p.y() * std::sin(angle),
+                12 * p.x() * std::sin(angle) + p.y() * std::cos(angle), p.z());
+    const Conversion conversion = convert(sceneOf(bar), maskAt(45));
+    constexpr int kLevels = 4;  // the surface, near enough: within 0.1 voxels
+    PolygonMesh surface = subdivide(baseLevel(bar), kLevels).mesh;
+    for (Vec3d& p : surface.points) p /= conversion.report.voxelSize;
+    const test::Sides sides = test::sidesOf(surface, maskOf(conversion));
+    CHECK(sides.outside > 0);
+    CHECK(sides.inside > 0);
+    CHECK(sides.leaks == 0);
+  }
+}
+
 TEST_CASE("removing a voxel that the surface needs opens a leak that the check sees",
           "[pipeline]") {
   const PolygonMesh shape = test::dodecahedron();
