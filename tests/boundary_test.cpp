@@ -1,4 +1,3 @@
-#include "libvox/core/parallel.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
@@ -55,13 +54,6 @@ double distanceToSpline(const std::vector<Vec3d>& loop, const std::vector<Vec3d>
   return best;
 }
 
-std::int64_t eulerCharacteristic(const PolygonMesh& mesh, const Adjacency& adjacency) {
-  std::int64_t edges = 0;
-  for (Index c = 0; c < mesh.cornerCount(); ++c)
-    edges += adjacency.twin[c] == kNone || leadsEdge(adjacency, c);
-  return std::int64_t{mesh.pointCount()} - edges + mesh.faceCount();
-}
-
 /// Two fans of faces that touch in one vertex of their boundaries.
 PolygonMesh openBowTie() {
   return test::meshOf({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.3}, {-1, 0, 0}, {-1, -1, 0}},
@@ -98,7 +90,7 @@ TEST_CASE("every level of an extended mesh is an oriented manifold of the same t
   for (const auto& shape : test::openShapes()) {
     CAPTURE(shape.name);
     SubdivisionLevel level = baseLevel(shape.mesh);
-    const auto expected = eulerCharacteristic(level.mesh, level.adjacency);
+    const auto expected = test::eulerCharacteristic(level.mesh);
     const auto loops = loopPoints(level).size();
     for (int k = 1; k <= 3; ++k) {
       CAPTURE(k);
@@ -113,7 +105,7 @@ TEST_CASE("every level of an extended mesh is an oriented manifold of the same t
       CHECK(level.adjacency.twin == searched.twin);
       CHECK(level.adjacency.cornerFace == searched.cornerFace);
       CHECK(findDefects(level.mesh, searched).empty());
-      CHECK(eulerCharacteristic(level.mesh, searched) == expected);
+      CHECK(test::eulerCharacteristic(level.mesh) == expected);
       CHECK(loopPoints(level).size() == loops);
       bool atMostOne = true;
       for (Index f = 0; f < level.mesh.faceCount(); ++f) {
@@ -262,7 +254,7 @@ TEST_CASE("fans that touch in a boundary vertex part, each with its own boundary
   CHECK(level.adjacency.twin == buildAdjacency(level.mesh).twin);
   CHECK(findDefects(level.mesh, level.adjacency).empty());
   CHECK(loopPoints(level).size() == 2);
-  CHECK(eulerCharacteristic(level.mesh, level.adjacency) == 2);
+  CHECK(test::eulerCharacteristic(level.mesh) == 2);
 }
 
 TEST_CASE("the largest child span is right for extended meshes",
@@ -277,18 +269,6 @@ TEST_CASE("the largest child span is right for extended meshes",
       CHECK(predicted == test::naiveLargestSpan(level.mesh));
     }
   }
-}
-
-TEST_CASE("extended levels do not depend on the number of threads",
-          "[subdivide][boundary][parallel]") {
-  const auto mesh = test::shuffled(test::sheet(120, 90), 3);
-  const auto run = [&] { return subdivide(baseLevel(mesh), 3); };
-  const auto one = onThreads(1, run);
-  const auto eight = onThreads(8, run);
-  CHECK(one.mesh.points == eight.mesh.points);
-  CHECK(one.mesh.faceVertices == eight.mesh.faceVertices);
-  CHECK(one.mesh.faceOffsets == eight.mesh.faceOffsets);
-  CHECK(one.adjacency.twin == eight.adjacency.twin);
 }
 
 TEST_CASE("a boundary vertex of 5000 faces and a lone face of 5000 corners take linear time",
