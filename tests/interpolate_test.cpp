@@ -186,12 +186,11 @@ TEST_CASE("a prescribed boundary vertex is served by boundary interpolation", "[
   CHECK(report.lift.vertices == 1);
 }
 
-TEST_CASE("vertices without a V-face are left out of all interior ones, and counted", "[prepare]") {
+TEST_CASE("vertices without a V-face are left out of all interior ones", "[prepare]") {
   for (const auto& mesh : {test::valenceTwo(), test::bowTie()}) {
     const SubdivisionLevel level = baseLevel(mesh);
     InterpolationReport report;
     interpolate(mesh, level.adjacency, Interpolate::kInterior, {}, report);
-    CHECK(report.leftOut == 1);
     CHECK(report.lift.vertices == mesh.pointCount() - 1);
   }
 }
