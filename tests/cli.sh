@@ -185,6 +185,39 @@ grep -q 'warning: winding: dropped 1 duplicate face' stderr || fail "no word of 
 printf '%sf 1 1 2\n' "$triangle" >nothing.obj
 expect 3 'nothing.obj: nothing is left after repair' convert nothing.obj -o out.vdb
 
+# Strict: no repair at all. Both commands, the scene, and the command line over the scene.
+printf '[convert]\nstrict = true\n[[object]]\nname = "two"\nmesh = "winding.obj"\n' >strict.toml
+strict='winding.obj: needs repair, which strict forbids: dropped face 1, which repeats face 0'
+expect 3 "$strict" convert winding.obj -o out.vdb --dim 8 --strict
+expect 3 "$strict" subdivide winding.obj -o out.obj --levels 0 --strict
+expect 3 'strict.toml: needs repair, .*face 1' convert strict.toml -o out.vdb --dim 8
+expect 0 '' convert strict.toml -o strict.vdb --dim 8 --strict=false
+expect 0 'active voxels' convert "$scenes/cube.toml" -o strict.vdb --dim 8 --strict --force
+
+# Near vertices, in world units.
+cat >near.obj <<'OBJ'
+v 0 0 0
+v 100 0 0
+v 0 100 0
+v 100.3 0 0
+v 0 100.3 0
+v 100 100 0
+f 1 2 3
+f 4 6 5
+OBJ
+expect 0 'near.off: 6 vertices, 2 faces' subdivide near.obj -o near.off --levels 0
+expect 0 '' subdivide near.obj -o near.off --levels 0 --weld 0.5 --force
+grep -q 'warning: near: welded 2 vertices' stderr || fail "no word of welding: $(cat stderr)"
+grep -q 'near.off: 4 vertices, 2 faces' stderr || fail "not welded: $(cat stderr)"
+printf '[convert]\nweld = 0.5\n[[object]]\nmesh = "near.obj"\n' >near.toml
+expect 0 '' convert near.toml -o near.vdb --dim 10
+grep -q 'warning: object 1: welded 2 vertices' stderr || fail "the scene's weld: $(cat stderr)"
+expect 0 '' convert near.toml -o near.vdb --dim 10 --weld 0 --force
+grep -q 'falls apart into 2 separate faces' stderr || fail "--weld 0 over the scene: $(cat stderr)"
+expect 2 'weld tolerance' convert near.obj -o out.vdb --weld -1
+expect 2 'weld tolerance' subdivide near.obj -o out.obj --levels 0 --weld inf
+expect 2 'weld' convert near.obj -o out.vdb --weld far
+
 # What needs care at the edges.
 expect 2 'out.obj: .*must end in .vdb' convert good.obj -o out.obj
 cp "$scenes/cube.obj" cube2.obj

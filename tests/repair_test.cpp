@@ -55,30 +55,6 @@ OrientReport componentsOf(const PolygonMesh& mesh) {
   return report;
 }
 
-/// Every face with vertices of its own.
-PolygonMesh unwelded(const PolygonMesh& mesh) {
-  PolygonMesh out;
-  for (Index f = 0; f < mesh.faceCount(); ++f) {
-    std::vector<Index> face;
-    for (const Index v : mesh.face(f)) {
-      face.push_back(out.pointCount());
-      out.points.push_back(mesh.points[v]);
-    }
-    out.addFace(face);
-  }
-  return out;
-}
-
-/// `count` triangles around the edge (0, 1).
-PolygonMesh book(int count) {
-  PolygonMesh mesh = test::meshOf({{0, 0, 0}, {0, 0, 1}}, {});
-  for (int i = 0; i < count; ++i) {
-    mesh.points.emplace_back(std::cos(0.7 * i), std::sin(0.7 * i), 0.5);
-    mesh.addFace(std::vector<Index>{0, 1, mesh.pointCount() - 1});
-  }
-  return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("a sound mesh passes unchanged and nothing is reported", "[repair]") {
@@ -94,7 +70,7 @@ TEST_CASE("a sound mesh passes unchanged and nothing is reported", "[repair]") {
 }
 
 TEST_CASE("an unwelded cube welds to eight vertices and closes", "[repair][weld]") {
-  PolygonMesh mesh = unwelded(test::cube());
+  PolygonMesh mesh = test::unwelded(test::cube());
   for (Vec3d& p : mesh.points) p += Vec3d(1, 1, 1);  // now it has zeros; some become -0
   for (std::size_t i = 0; i < mesh.points.size(); i += 2)
     for (double& x : mesh.points[i])
@@ -227,15 +203,7 @@ TEST_CASE("two tetrahedra that share a vertex come apart there", "[repair]") {
 }
 
 TEST_CASE("a shared apex of two cones comes apart", "[repair]") {
-  PolygonMesh mesh = test::regularPolygon(6);
-  mesh.faceVertices.clear();
-  mesh.faceOffsets = {0};
-  for (int i = 0; i < 6; ++i) mesh.points.push_back(mesh.points[i] + Vec3d(0, 0, 2));
-  mesh.points.emplace_back(0, 0, 1);
-  for (Index ring = 0; ring < 12; ring += 6)
-    for (Index i = 0; i < 6; ++i)
-      mesh.addFace(std::vector<Index>{12, ring + i, ring + (i + 1) % 6});
-  const auto out = repaired(mesh);
+  const auto out = repaired(test::twoCones());
   CHECK(out.mesh.pointCount() == 14);
   CHECK(componentsOf(out.mesh).openComponents == 2);
   checkSound(out.mesh);
@@ -270,12 +238,7 @@ TEST_CASE("an edge of three faces keeps the flattest two joined", "[repair]") {
 }
 
 TEST_CASE("a fin in the middle of a plate leaves the plate whole", "[repair]") {
-  PolygonMesh mesh = test::sheet(6, 4);
-  const Index a = 2 * 7 + 2;  // the fin stands on the edges a, a + 1, a + 2
-  const Index top = mesh.pointCount();
-  for (Index i = 0; i < 3; ++i) mesh.points.push_back(mesh.points[a + i] + Vec3d(0, 0, 2));
-  mesh.addFace(std::vector<Index>{a, a + 1, top + 1, top});
-  mesh.addFace(std::vector<Index>{a + 1, a + 2, top + 2, top + 1});
+  const PolygonMesh mesh = test::finOnSheet();
   const auto out = repaired(mesh);
   CHECK(out.count(RepairKind::kCutEdge) == 2);
   CHECK(out.mesh.pointCount() == mesh.pointCount() + 3);
@@ -440,7 +403,7 @@ TEST_CASE("adversarial meshes take no more than n log n", "[repair][property]") 
   // Far from a second each when linear; minutes when quadratic. The limit only tells those apart.
   const Index n = 100000;
   std::vector<PolygonMesh> hard;
-  hard.push_back(book(static_cast<int>(n)));  // an edge of n faces
+  hard.push_back(test::book(static_cast<int>(n)));  // an edge of n faces
   hard.push_back(test::pyramid(static_cast<int>(n)));
   PolygonMesh flower;  // a vertex of n fans
   flower.points.emplace_back(0, 0, 0);

@@ -199,6 +199,37 @@ PolygonMesh klein(int columns, int rows) {
   return mesh;
 }
 
+PolygonMesh book(int count) {
+  PolygonMesh mesh = meshOf({{0, 0, 0}, {0, 0, 1}}, {});
+  for (int i = 0; i < count; ++i) {
+    mesh.points.emplace_back(std::cos(0.7 * i), std::sin(0.7 * i), 0.5);
+    mesh.addFace(std::vector<Index>{0, 1, mesh.pointCount() - 1});
+  }
+  return mesh;
+}
+
+PolygonMesh twoCones() {
+  PolygonMesh mesh = regularPolygon(6);
+  mesh.faceVertices.clear();
+  mesh.faceOffsets = {0};
+  for (int i = 0; i < 6; ++i) mesh.points.push_back(mesh.points[i] + Vec3d(0, 0, 2));
+  mesh.points.emplace_back(0, 0, 1);
+  for (Index ring = 0; ring < 12; ring += 6)
+    for (Index i = 0; i < 6; ++i)
+      mesh.addFace(std::vector<Index>{12, ring + i, ring + (i + 1) % 6});
+  return mesh;
+}
+
+PolygonMesh finOnSheet() {
+  PolygonMesh mesh = sheet(6, 4);
+  const Index a = 2 * 7 + 2;  // the fin stands on the edges a, a + 1, a + 2
+  const Index top = mesh.pointCount();
+  for (Index i = 0; i < 3; ++i) mesh.points.push_back(mesh.points[a + i] + Vec3d(0, 0, 2));
+  mesh.addFace(std::vector<Index>{a, a + 1, top + 1, top});
+  mesh.addFace(std::vector<Index>{a + 1, a + 2, top + 2, top + 1});
+  return mesh;
+}
+
 const std::vector<Shape>& shapes() {
   static const std::vector<Shape> all = {
       {"cube", cube(), true},
@@ -289,6 +320,19 @@ std::vector<Shape> makeOpenShapes() {
 const std::vector<Shape>& openShapes() {
   static const std::vector<Shape> all = makeOpenShapes();
   return all;
+}
+
+PolygonMesh unwelded(const PolygonMesh& mesh) {
+  PolygonMesh out;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    std::vector<Index> face;
+    for (const Index v : mesh.face(f)) {
+      face.push_back(out.pointCount());
+      out.points.push_back(mesh.points[v]);
+    }
+    out.addFace(face);
+  }
+  return out;
 }
 
 void flipFace(PolygonMesh& mesh, Index f) {

@@ -27,6 +27,10 @@ PolygonMesh moebius(int quads);               ///< cannot be oriented
 
 PolygonMesh klein(int columns, int rows);  ///< closed quads, cannot be oriented
 
+PolygonMesh book(int count);  ///< triangles around one edge
+PolygonMesh twoCones();       ///< open, with a common apex
+PolygonMesh finOnSheet();     ///< a sheet, and two quads that stand on its middle
+
 /// One shape of every family that can be subdivided.
 struct Shape {
   std::string name;
@@ -43,6 +47,8 @@ PolygonMesh tube(int around, int along);    ///< quads around a circle, both end
 
 /// Open shapes of every face size 3..8 and boundary valence 1..7, some with several loops.
 const std::vector<Shape>& openShapes();
+
+PolygonMesh unwelded(const PolygonMesh& mesh);  ///< every face with vertices of its own
 
 void flipFace(PolygonMesh& mesh, Index f);
 PolygonMesh insideOut(PolygonMesh mesh);

@@ -2,7 +2,7 @@
 
 #include "libvox/grid/grid_kind.h"
 #include "libvox/io/scene_file.h"
-#include "libvox/mesh/smoothing.h"
+#include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
 #include "libvox/prepare/interpolate.h"
 
@@ -27,10 +27,9 @@ class GridBase;
 namespace vox {
 
 /// How to convert. What is not set here is taken from the scene, then from the default.
-struct ConvertOptions {
+struct ConvertOptions : PreparationOptions {
   std::optional<int> dim;           ///< voxels along the longest side of the input; default 256
   std::optional<double> voxelSize;  ///< world units; overrides dim
-  SmoothingOptions smoothing;       ///< default: boundary extended, nothing interpolated
   std::optional<std::vector<GridKind>> grids;  ///< default: density
   RunOptions run;
 };
@@ -44,7 +43,7 @@ struct ObjectReport {
   int levels = 0;                     ///< Doo-Sabin steps
   std::uint64_t vertices = 0;         ///< vertices of the last level, each rounded to a voxel
   double largestSpan = 0;             ///< longest L-inf face span of the last level, voxels
-  InterpolationReport interpolation;  ///< its residual in voxels
+  InterpolationReport interpolation;  ///< its residual in world units
 };
 
 struct ConvertReport {
@@ -66,10 +65,9 @@ struct Conversion {
 /// criterion, so the active voxels 6-separate the two sides of each surface. Grids carry the
 /// metadata of DESIGN section 9. The result does not depend on the number of threads.
 ///
-/// @throws UsageError  dim, voxel size, number of threads or smoothing is nonsense
+/// @throws UsageError  dim, voxel size, number of threads, smoothing or weld tolerance is nonsense
 /// @throws InputError  the input has no extent and no voxel size is given
-/// @throws MeshError   an object is not an oriented manifold, or a vertex cannot be interpolated;
-///   the message names file, object and element
+/// @throws MeshError   as prepare (refine.h)
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid
 Conversion convert(const Scene& scene, const ConvertOptions& options);
 
