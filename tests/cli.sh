@@ -153,9 +153,24 @@ import json, sys
 vdb, mesh = json.load(open(sys.argv[1]))
 assert [grid["name"] for grid in vdb["grids"]] == ["density", "mask"]
 assert vdb["grids"][0]["active_voxels"] == vdb["grids"][1]["active_voxels"] > 1000
-assert mesh["meshes"][0]["valences"] == {"3": 8}
+cube = mesh["meshes"][0]
+assert cube["valences"] == {"3": 8}
+assert cube["closed"] and cube["orientable"] and cube["genus"] == 0
+assert cube["repair"] == {} and cube["prepared"]["faces"] == 6
 PY
 expect 3 'missing.vdb' info missing.vdb
+expect 0 '' info winding.obj
+grep -q 'repair  *dropped 1 duplicate face' stdout || fail "info: no word of the repair"
+grep -q 'after repair: 3 vertices, 3 edges, 1 face' stdout || fail "info: not after repair"
+expect 0 '' info --json winding.obj
+python3 - stdout <<'PY' || fail "info --json of a repair"
+import json, sys
+mesh = json.load(open(sys.argv[1]))[0]["meshes"][0]
+assert mesh["faces"] == 2 and mesh["prepared"]["faces"] == 1
+assert mesh["prepared"]["boundary_loops"] == [3]
+assert mesh["repair"]["dropped duplicate faces"]["count"] == 1
+assert "face 1" in mesh["repair"]["dropped duplicate faces"]["first"]
+PY
 
 for format in obj ply off; do
   expect 0 '96 vertices, 98 faces' subdivide "$scenes/cube.obj" -o "cube.$format" --levels 2
@@ -217,6 +232,12 @@ grep -q 'falls apart into 2 separate faces' stderr || fail "--weld 0 over the sc
 expect 2 'weld tolerance' convert near.obj -o out.vdb --weld -1
 expect 2 'weld tolerance' subdivide near.obj -o out.obj --levels 0 --weld inf
 expect 2 'weld' convert near.obj -o out.vdb --weld far
+
+expect 0 '' info near.obj --weld 0.5
+grep -q 'after repair: 4 vertices' stdout || fail "info --weld: $(cat stdout)"
+expect 2 'weld tolerance' info near.obj --weld -1
+expect 0 '' info nothing.obj
+grep -q 'nothing is left' stdout || fail "info of nothing: $(cat stdout)"
 
 # What needs care at the edges.
 expect 2 'out.obj: .*must end in .vdb' convert good.obj -o out.obj
