@@ -106,6 +106,9 @@ expect 2 'levels' subdivide good.obj -o out.obj
 expect 2 'levels' subdivide good.obj -o out.obj --levels -1
 expect 2 'out.vdb: .*\.obj' subdivide good.obj -o out.vdb --levels 1
 expect 2 'max-memory' convert good.obj -o out.vdb --max-memory lots
+expect 2 '(--force|convert).*maybe' convert good.obj -o out.vdb --dim=3 --force=maybe
+expect 2 'true or false: --strict=maybe' convert good.obj -o out.vdb --dim=3 --strict=maybe
+expect 2 'true or false: --strict=99999999999999999999' convert good.obj -o out.vdb --strict=99999999999999999999
 expect 2 '' # no command at all
 
 # Limits, exit code 4; output, exit code 5.
