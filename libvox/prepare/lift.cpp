@@ -95,7 +95,7 @@ class Gradients {
         residual_(std::move(b)),
         direction_(residual_.size()) {
     for (Index row = 0; row < system.rows(); ++row)
-      direction_[row] = residual_[row] / system.valence(row);
+      direction_[row] = residual_[row] * (1 / system.valence(row));
     scaledNorm_ = sumOverRows(system_.rows(),
                               [&](Index row) { return times(residual_[row], direction_[row]); });
     norm_ = sumOverRows(system_.rows(),
@@ -129,7 +129,7 @@ class Gradients {
       residual_[row].array() -= length * product_[row].array();
       const Triple square = times(residual_[row], residual_[row]);
       Norms both;
-      both << square / system_.valence(row), square;
+      both << square * (1 / system_.valence(row)), square;
       return both;
     });
     const Triple turn = open.select(norms.col(0) / scaledNorm_, 0.0);

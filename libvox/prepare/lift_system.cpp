@@ -67,10 +67,13 @@ void LiftSystem::imageOfFace(Index f, std::span<const Vec3d> positions) {
     sumCosine += roots[i].cosine * p;
     sumSine += roots[i].sine * p;
   }
+  sum *= 0.75 / n;
+  sumCosine *= 0.5 / n;
+  sumSine *= 0.5 / n;
+  Vec3d* images = images_.data() + mesh_.faceOffsets[f];
   for (Index i = 0; i < n; ++i)
-    images_[mesh_.faceOffsets[f] + i] =
-        0.25 * positions[face[i]] + (0.75 / n) * sum +
-        (0.5 / n) * (roots[i].cosine * sumCosine + roots[i].sine * sumSine);
+    images[i] =
+        0.25 * positions[face[i]] + sum + roots[i].cosine * sumCosine + roots[i].sine * sumSine;
 }
 
 void LiftSystem::sumCorners(std::span<const Vec3d> positions, std::vector<Vec3d>& sums) {
