@@ -153,9 +153,8 @@ Json describe(const SceneObject& object, double weldTolerance, bool json) {
     return all;
   }
   print("mesh " + object.name, input);
-  const std::vector<std::string> done = summaries(report);
-  if (done.empty()) std::cout << "    repair            none needed\n";
-  for (const std::string& line : done) std::cout << "    repair            " << line << '\n';
+  const std::string done = summary(report);
+  std::cout << "    repair            " << (done.empty() ? "none needed" : done) << '\n';
   if (prepared.faces == 0)
     std::cout << "  after repair: nothing is left\n";
   else if (!done.empty())

@@ -55,7 +55,7 @@ void requireConsistent(const Scene& scene, const SceneObject& object,
                      "; use interpolate_vertices in the scene");
 }
 
-/// The mesh of an object made sound, with a line or two of what had to be done for it.
+/// The mesh of an object made sound, with one line of what had to be done for it.
 PolygonMesh soundMeshOf(const Scene& scene, const SceneObject& object,
                         const PreparationOptions& options, VertexOrigin& origin,
                         std::vector<std::string>& warnings) {
@@ -63,13 +63,12 @@ PolygonMesh soundMeshOf(const Scene& scene, const SceneObject& object,
   repair.weldTolerance = options.weldTolerance.value_or(scene.weldTolerance.value_or(0));
   SoundReport report;
   PolygonMesh mesh = soundMesh(object.mesh, repair, report);
-  const std::vector<std::string> done = summaries(report);
+  const std::string done = summary(report);
   if (options.strict.value_or(scene.strict.value_or(false)) && !done.empty())
     throw MeshError("needs repair, which strict forbids: " + firstAction(report) +
-                    "; in all: " + done.front() + (done.size() > 1 ? ", " + done.back() : ""));
-  if (mesh.faceCount() == 0)
-    throw MeshError("nothing is left after repair: " + summary(report.repair));
-  for (const std::string& line : done) warnings.push_back(object.name + ": " + line);
+                    "; in all: " + done);
+  if (mesh.faceCount() == 0) throw MeshError("nothing is left after repair: " + done);
+  if (!done.empty()) warnings.push_back(object.name + ": " + done);
   origin.weldedTo = std::move(report.repair.weldedTo);
   origin.of = std::move(report.orient.pointOrigin);
   return mesh;

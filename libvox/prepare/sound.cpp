@@ -22,11 +22,10 @@ PolygonMesh soundMesh(PolygonMesh mesh, const RepairOptions& options, SoundRepor
   return mesh;
 }
 
-std::vector<std::string> summaries(const SoundReport& report) {
-  std::vector<std::string> lines;
-  for (std::string line : {summary(report.repair), summary(report.orient)})
-    if (!line.empty()) lines.push_back(std::move(line));
-  return lines;
+std::string summary(const SoundReport& report) {
+  const std::string repaired = summary(report.repair);
+  const std::string turned = summary(report.orient);
+  return repaired + (repaired.empty() || turned.empty() ? "" : ", ") + turned;
 }
 
 std::string firstAction(const SoundReport& report) {

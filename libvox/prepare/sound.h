@@ -4,7 +4,6 @@
 #include "libvox/prepare/repair.h"
 
 #include <string>
-#include <vector>
 
 namespace vox {
 
@@ -18,8 +17,8 @@ struct SoundReport {
 /// @throws MeshError, UsageError, LimitError  as repair and orient
 PolygonMesh soundMesh(PolygonMesh mesh, const RepairOptions& options, SoundReport& report);
 
-/// What was done, a line for repair and one for orientation; none where nothing was done.
-std::vector<std::string> summaries(const SoundReport& report);
+/// One line: "dropped 2 duplicate faces, flipped 12 faces"; empty if nothing was done.
+std::string summary(const SoundReport& report);
 
 /// The first thing that was done: "dropped face 1, which repeats face 0"; empty if nothing was.
 std::string firstAction(const SoundReport& report);
