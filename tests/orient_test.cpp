@@ -8,7 +8,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <random>
 
 using namespace vox;
 using Catch::Contains;
