@@ -1,6 +1,5 @@
 #include "libvox/mesh/validate.h"
 #include "libvox/subdivide/doo_sabin.h"
-#include "libvox/subdivide/stop.h"
 #include "tests/reference.h"
 #include "tests/shapes.h"
 
@@ -320,20 +319,6 @@ TEST_CASE("fans that touch in a boundary vertex part, each with its own boundary
   CHECK(findDefects(level.mesh, level.adjacency).empty());
   CHECK(loopPoints(level).size() == 2);
   CHECK(test::eulerCharacteristic(level.mesh) == 2);
-}
-
-TEST_CASE("the largest child span is right for extended meshes",
-          "[subdivide][boundary][property]") {
-  for (const auto& shape : test::openShapes()) {
-    CAPTURE(shape.name);
-    SubdivisionLevel level = baseLevel(shape.mesh);
-    for (int k = 0; k < 3; ++k) {
-      const auto image = imageVertices(level);
-      const double predicted = largestChildSpan(level, image);
-      level = nextLevel(level, image);
-      CHECK(predicted == test::naiveLargestSpan(level.mesh));
-    }
-  }
 }
 
 TEST_CASE("a boundary vertex of 5000 faces and a lone face of 5000 corners take linear time",

@@ -271,8 +271,12 @@ expect 0 '' info --json $'caf\xe9.obj'
 
 # A signal leaves the target as it was. (Background jobs of a script ignore SIGINT.)
 echo old >kept.vdb
-"$vox" convert "$scenes/toy_jack.toml" -o kept.vdb --force --dim 1500 2>stderr &
-sleep 0.2
+"$vox" convert "$scenes/toy_jack.toml" -o kept.vdb --force --dim 3000 2>stderr &
+for _ in $(seq 200); do  # until the program catches SIGTERM, the 15th bit
+  caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' /proc/$!/status)
+  ((16#${caught:-0} & 0x4000)) && break
+  sleep 0.05
+done
 kill -TERM $!
 wait $!
 [ $? -eq 130 ] || fail "interrupt: exit code"

@@ -1,13 +1,18 @@
-// In-process timings of the stages on a generated torus grid, beside CGAL's Doo-Sabin in the same
-// run. `vox_bench --benchmark_format=json` prints JSON; see --help for more.
+// In-process timings: of the stages on a generated torus grid, beside CGAL's Doo-Sabin in the same
+// run, of the engine, and of whole conversions of every generated mesh. `vox_bench [MESH...]` adds
+// mesh files to the engine's; --benchmark_format=json prints JSON; see --help for more.
 
+#include "apps/bench/engine_bench.h"
+#include "apps/bench/inputs.h"
+#include "libvox/core/error.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/subdivide/doo_sabin.h"
-#include "libvox/subdivide/stop.h"
-#include "libvox/voxelize/vertex.h"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
+
+#include <string>
+#include <vector>
 
 #ifdef VOX_HAVE_CGAL
 #include <CGAL/Simple_cartesian.h>
@@ -15,30 +20,12 @@
 #include <CGAL/subdivision_method_3.h>
 #endif
 
-#include <cmath>
-#include <numbers>
-
 namespace {
 
 using namespace vox;
 
-/// Closed torus of 64 x 32 quads, major radius 1, minor 0.4.
 PolygonMesh torus() {
-  constexpr Index kMajor = 64;
-  constexpr Index kMinor = 32;
-  PolygonMesh mesh;
-  for (Index i = 0; i < kMajor; ++i)
-    for (Index j = 0; j < kMinor; ++j) {
-      const double u = 2 * std::numbers::pi * i / kMajor;
-      const double v = 2 * std::numbers::pi * j / kMinor;
-      const double r = 1 + 0.4 * std::cos(v);
-      mesh.points.emplace_back(r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v));
-    }
-  const auto at = [](Index i, Index j) { return i % kMajor * kMinor + j % kMinor; };
-  for (Index i = 0; i < kMajor; ++i)
-    for (Index j = 0; j < kMinor; ++j)
-      mesh.addFace(std::vector<Index>{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-  return mesh;
+  return bench::makeInput("torus");
 }
 
 constexpr int kLevels = 5;
@@ -86,45 +73,45 @@ void cgalDooSabin(benchmark::State& state) {
 BENCHMARK(cgalDooSabin)->Unit(benchmark::kMillisecond)->UseRealTime();
 #endif
 
-void largestSpan(benchmark::State& state) {
-  const SubdivisionLevel level = subdivide(baseLevel(torus()), kLevels - 1);
-  const auto image = imageVertices(level);
-  for (auto _ : state) benchmark::DoNotOptimize(largestChildSpan(level, image));
-  countVertices(state, image.size());
-}
-BENCHMARK(largestSpan)->Unit(benchmark::kMillisecond)->UseRealTime();
-
-void vertexConversion(benchmark::State& state) {
-  const SubdivisionLevel level = subdivide(baseLevel(torus()), kLevels);
-  std::vector<Vec3d> index = level.mesh.points;
-  for (Vec3d& p : index) p *= 400;
-  for (auto _ : state) {
-    openvdb::MaskGrid mask;
-    markVertices(index, mask);
-  }
-  countVertices(state, index.size());
-}
-BENCHMARK(vertexConversion)->Unit(benchmark::kMillisecond)->UseRealTime();
-
-void wholeConversion(benchmark::State& state) {
+/// From mesh to grid, in memory; voxels/s is to be held against that of the torus.
+void wholeConversion(benchmark::State& state, const bench::Input& input) {
   Scene scene;
-  scene.objects.push_back({"torus", torus()});
+  scene.objects.push_back({std::string(input.name), input.make()});
   ConvertOptions options;
   options.dim = static_cast<int>(state.range(0));
   options.grids = std::vector{GridKind::kMask};
   std::uint64_t voxels = 0;
-  for (auto _ : state) voxels = convert(scene, options).report.activeVoxels;
+  try {
+    for (auto _ : state) voxels = convert(scene, options).report.activeVoxels;
+  } catch (const LimitError& error) {
+    state.SkipWithError(error.what());
+    return;
+  }
   state.counters["voxels/s"] = benchmark::Counter(static_cast<double>(voxels),
                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK(wholeConversion)
-    ->Arg(256)
-    ->Arg(512)
-    ->Arg(1024)
-    ->ArgName("dim")
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+
+void registerConversions() {
+  for (const bench::Input& input : bench::inputs()) {
+    const std::string name = "wholeConversion/" + std::string(input.name);
+    auto* conversion = benchmark::RegisterBenchmark(name.c_str(), wholeConversion, input);
+    conversion->ArgName("dim")->Unit(benchmark::kMillisecond)->UseRealTime();
+    conversion->Arg(256)->Arg(512)->Arg(1024);
+  }
+}
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  // What Google Benchmark leaves are mesh files, unless it looks like an option of its.
+  std::vector<std::string> meshFiles;
+  for (int i = 1; i < argc; ++i) {
+    if (argv[i][0] == '-' && benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    meshFiles.emplace_back(argv[i]);
+  }
+  bench::registerEngine(meshFiles);
+  registerConversions();
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

@@ -46,13 +46,12 @@ void printReport(const Options& options, const ConvertReport& report) {
   for (const ObjectReport& object : report.objects) {
     std::ostringstream text;
     text << object.name << ": " << object.inputFaces << " faces, " << object.levels << " levels, "
-         << object.vertices << " vertices, largest face " << object.largestSpan << " voxels";
+         << object.submeshes << " submeshes, " << object.vertices << " vertices";
     say(options.common, text.str());
     sayInterpolation(options.common, object);
   }
   std::ostringstream times;
-  times << "subdivide " << report.subdivideSeconds << " s, voxelize " << report.voxelizeSeconds
-        << " s";
+  times << "prepare " << report.prepareSeconds << " s, surface " << report.surfaceSeconds << " s";
   say(options.common, times.str());
 }
 

@@ -11,11 +11,10 @@
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
 #include "libvox/pipeline/refine.h"
-#include "libvox/subdivide/doo_sabin.h"
-#include "libvox/subdivide/stop.h"
+#include "libvox/pipeline/surface.h"
 #include "libvox/volume/density.h"
-#include "libvox/voxelize/vertex.h"
 
+#include <Eigen/Geometry>
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
@@ -69,61 +68,6 @@ void moveToIndexSpace(PolygonMesh& mesh, const GridTransform& transform) {
   for (Vec3d& point : mesh.points) point = transform.toIndex(point);
 }
 
-// Depth
-
-/// Doo-Sabin levels still to do when faces of a span halve with each.
-int levelsToGo(double span) {
-  return span <= kVertexConversionSpan
-             ? 0
-             : static_cast<int>(std::ceil(std::log2(span / kVertexConversionSpan)));
-}
-
-/// Bytes at the deepest moment when `levels` more are done: the points of the last level, which has
-/// no topology, and the level before it.
-double bytesAtDepth(const SubdivisionLevel& level, int levels) {
-  constexpr double kBytesPerPoint = sizeof(Vec3d);
-  constexpr double kBytesPerVertex = kBytesPerPoint + 4 * 4 * sizeof(Index);  // with four corners
-  const double points = static_cast<double>(nextPointCount(level)) * std::pow(4.0, levels);
-  return points * kBytesPerPoint + points / 4 * kBytesPerVertex;
-}
-
-/// Refuses a conversion that cannot fit before its first expensive level, and says what would.
-void requireFitsAtFullDepth(const SubdivisionLevel& level, double span, double voxelSize,
-                            double longestSide, const MemoryBudget& budget) {
-  const int toGo = levelsToGo(span);
-  int fit = toGo;
-  while (fit > 0 && bytesAtDepth(level, fit) > static_cast<double>(budget.left())) --fit;
-  if (fit == toGo) return;
-  constexpr double kMargin = 1.5;  // faces may shrink by less than half at first
-  const double larger = kMargin * span / kVertexConversionSpan / std::pow(2.0, fit) * voxelSize;
-  std::ostringstream advice;
-  advice.precision(3);
-  advice << "use --dim " << std::max(1.0, std::floor(longestSide / larger)) << " or --voxel-size "
-         << larger << ", or raise --max-memory";
-  constexpr double kMostBytes = 1e18;
-  budget.require(static_cast<std::uint64_t>(std::min(bytesAtDepth(level, toGo), kMostBytes)),
-                 "subdividing the whole mesh to voxel size", advice.str());
-}
-
-/// Subdivides until every face is small enough for vertex conversion and returns the vertices of
-/// the last level, in voxels. At least one level: the points of the input are not on the surface.
-std::vector<Vec3d> verticesAtVoxelSize(SubdivisionLevel level, double voxelSize, double longestSide,
-                                       const MemoryBudget& budget, ObjectReport& report) {
-  constexpr const char* kAdvice = "use larger voxels, or raise --max-memory";
-  for (;;) {
-    const std::uint64_t held = bytesOf(level) + bytesOfImage(level);
-    budget.require(held, "subdivision", kAdvice);
-    std::vector<Vec3d> image = imageVertices(level);
-    ++report.levels;
-    report.vertices = image.size();
-    report.largestSpan = largestChildSpan(level, image);
-    if (report.largestSpan <= kVertexConversionSpan) return image;
-    requireFitsAtFullDepth(level, report.largestSpan, voxelSize, longestSide, budget);
-    budget.require(held + bytesOfNextTopology(level), "subdivision", kAdvice);
-    level = nextLevel(level, std::move(image));
-  }
-}
-
 /// What a user may not expect of an open mesh.
 void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, ConvertReport& report) {
   const std::size_t loops = boundaryLoops(level.mesh, level.adjacency).size();
@@ -142,25 +86,55 @@ void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, Conv
 
 // Memory of grids
 
-template <class TreeT>
-std::uint64_t bytesOfTree(const TreeFootprint& footprint, std::size_t bytesPerVoxel) {
-  using Leaf = typename TreeT::LeafNodeType;
-  using Lower = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
-  using Upper = typename TreeT::RootNodeType::ChildNodeType;
-  return footprint.leaves * (sizeof(Leaf) + Leaf::SIZE * bytesPerVoxel) +
-         footprint.lowerNodes * sizeof(Lower) + footprint.upperNodes * sizeof(Upper);
+/// Bytes of a tree of floats with the nodes of a mask.
+std::uint64_t bytesOfDensity(const openvdb::MaskTree& mask) {
+  using Leaf = openvdb::FloatTree::LeafNodeType;
+  using Upper = openvdb::FloatTree::RootNodeType::ChildNodeType;
+  using Lower = Upper::ChildNodeType;
+  const auto nodes = mask.nodeCount();  // leaves first, root last
+  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(float)) + nodes[1] * sizeof(Lower) +
+         nodes[2] * sizeof(Upper);
 }
 
 constexpr const char* kScattered =
     "the model is scattered over much space: use larger voxels, or raise --max-memory";
 
-void mark(const std::vector<Vec3d>& vertices, openvdb::MaskGrid& mask, MemoryBudget& budget) {
-  TreeFootprint footprint = footprintOf(vertices);
-  // Threads may need a node at the same place each, until their trees are merged.
-  footprint.lowerNodes *= 2;
-  footprint.upperNodes *= 2;
-  budget.take(bytesOfTree<openvdb::MaskTree>(footprint, 0), "the grid", kScattered);
-  markVertices(vertices, mask);
+/// Area of the faces as fans, in square voxels.
+double areaOf(const PolygonMesh& mesh) {
+  double twice = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t i = 1; i + 1 < face.size(); ++i)
+      twice += (mesh.points[face[i]] - mesh.points[face[0]])
+                   .cross(Vec3d(mesh.points[face[i + 1]] - mesh.points[face[0]]))
+                   .norm();
+  }
+  return twice / 2;
+}
+
+/// Bytes of mask nodes for a surface: 1.5 leaves per 64 square voxels, averaged over directions,
+/// and 1.5 inner nodes per 16384.
+double bytesOfMask(double area) {
+  using Leaf = openvdb::MaskTree::LeafNodeType;
+  using Lower = openvdb::MaskTree::RootNodeType::ChildNodeType::ChildNodeType;
+  return 1.5 * area * (sizeof(Leaf) / 64.0 + sizeof(Lower) / 16384.0);
+}
+
+/// Refuses a surface that cannot fit, before the work starts, and says which resolution would. The
+/// area of the control mesh is more than that of the surface, but less than twice for most.
+void requireMaskFits(const PolygonMesh& controlMesh, const GridTransform& transform,
+                     double longestSide, const MemoryBudget& budget) {
+  const double bytes = bytesOfMask(areaOf(controlMesh));
+  constexpr double kCertain = 4;
+  const double left = static_cast<double>(budget.left());
+  if (bytes <= kCertain * left) return;
+  const double larger = std::sqrt(kCertain * bytes / left) * transform.voxelSize;
+  std::ostringstream advice;
+  advice.precision(3);
+  advice << "use --dim " << std::max(1.0, std::floor(longestSide / larger)) << " or --voxel-size "
+         << larger << ", or raise --max-memory";
+  constexpr double kMostBytes = 1e18;
+  budget.require(static_cast<std::uint64_t>(std::min(bytes, kMostBytes)), "the grid", advice.str());
 }
 
 // Metadata
@@ -204,9 +178,7 @@ openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
                                 MemoryBudget& budget) {
   if (kind == GridKind::kMask) return mask;
-  const auto nodes = mask->tree().nodeCount();  // leaves first, root last
-  budget.take(bytesOfTree<openvdb::FloatTree>({nodes[0], nodes[1], nodes[2]}, sizeof(float)),
-              "the density grid", kScattered);
+  budget.take(bytesOfDensity(mask->tree()), "the density grid", kScattered);
   return densityGrid(*mask);
 }
 
@@ -219,28 +191,41 @@ void notePreparation(const PreparedObject& prepared, const GridTransform& transf
   requireInRange(usedBox(prepared.base.mesh), transform);
 }
 
+/// What became of a surface, for the report.
+void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
+  part.submeshes = surface.submeshes;
+  for (std::size_t level = 0; level < surface.vertices.size(); ++level) {
+    if (surface.vertices[level] == 0) continue;
+    part.levels = static_cast<int>(level);
+    part.vertices += surface.vertices[level];
+  }
+}
+
 openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& options,
                                       const GridTransform& transform, double longestSide,
                                       MemoryBudget& budget, ConvertReport& report) {
-  auto mask = openvdb::MaskGrid::create();
-  mask->setName(gridName(GridKind::kMask));
-  mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
+  SurfaceGrid grid(budget.left());
   for (const SceneObject& object : scene.objects) {
     ObjectReport& part = report.objects.emplace_back();
     part.name = object.name;
     part.inputFaces = object.mesh.faceCount();
-    std::vector<Vec3d> vertices;
+    PreparedObject prepared;
     {
-      const StageTimer timer(report.subdivideSeconds);
-      PreparedObject prepared = prepare(scene, object, options, budget);
+      const StageTimer timer(report.prepareSeconds);
+      prepared = prepare(scene, object, options, budget);
       notePreparation(prepared, transform, part, report);
       moveToIndexSpace(prepared.base.mesh, transform);
-      vertices = verticesAtVoxelSize(std::move(prepared.base), transform.voxelSize, longestSide,
-                                     budget, part);
+      requireMaskFits(prepared.base.mesh, transform, longestSide, budget);
     }
-    const StageTimer timer(report.voxelizeSeconds);
-    mark(vertices, *mask, budget);
+    const StageTimer timer(report.surfaceSeconds);
+    SurfaceReport surface;
+    markSurface(prepared.base, options.surface, grid, surface);
+    noteSurface(surface, part);
   }
+  budget.take(grid.memoryBytes(), "the grid", kScattered);
+  auto mask = openvdb::MaskGrid::create(grid.takeTree());
+  mask->setName(gridName(GridKind::kMask));
+  mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
   report.activeVoxels = mask->activeVoxelCount();
   return mask;
 }

@@ -4,6 +4,7 @@
 #include "libvox/io/scene_file.h"
 #include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
+#include "libvox/pipeline/surface.h"
 #include "libvox/prepare/interpolate.h"
 
 #include <openvdb/version.h>
@@ -31,6 +32,7 @@ struct ConvertOptions : PreparationOptions {
   std::optional<int> dim;           ///< voxels along the longest side of the input; default 256
   std::optional<double> voxelSize;  ///< world units; overrides dim
   std::optional<std::vector<GridKind>> grids;  ///< default: density
+  SurfaceOptions surface;
   RunOptions run;
 };
 
@@ -40,9 +42,9 @@ inline constexpr int kDefaultDim = 256;
 struct ObjectReport {
   std::string name;
   std::uint64_t inputFaces = 0;
-  int levels = 0;                     ///< Doo-Sabin steps
-  std::uint64_t vertices = 0;         ///< vertices of the last level, each rounded to a voxel
-  double largestSpan = 0;             ///< longest L-inf face span of the last level, voxels
+  Index submeshes = 0;
+  int levels = 0;                     ///< Doo-Sabin steps down to the deepest vertex
+  std::uint64_t vertices = 0;         ///< vertices rounded to voxels, each at its own level
   InterpolationReport interpolation;  ///< its residual in world units
 };
 
@@ -51,8 +53,8 @@ struct ConvertReport {
   std::vector<ObjectReport> objects;
   std::uint64_t activeVoxels = 0;
   std::vector<std::string> warnings;  ///< one line each: what the user may not expect
-  double subdivideSeconds = 0;        ///< with the search for the level
-  double voxelizeSeconds = 0;
+  double prepareSeconds = 0;
+  double surfaceSeconds = 0;  ///< subdivision and voxelization
 };
 
 struct Conversion {

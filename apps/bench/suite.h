@@ -1,0 +1,56 @@
+#pragma once
+
+#include "apps/bench/compare.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vox::bench {
+
+/// Where the programs are that comparisons run.
+struct Tools {
+  std::filesystem::path vox;
+  std::filesystem::path inputsWriter;  ///< vox_bench_inputs_write
+  std::filesystem::path peers;         ///< folder of vox_peer_*
+};
+
+/// The tools of the build this program belongs to.
+Tools toolsBeside(const std::filesystem::path& self);
+
+/// `vox convert --grids mask` of a mesh at a resolution, to a file; `more` arguments besides.
+Program voxConvert(const Tools& tools, const std::filesystem::path& mesh, int dim,
+                   const std::filesystem::path& output, const std::vector<std::string>& more = {});
+
+/// A program that loads OpenVDB and ends.
+Program openvdbFloor(const Tools& tools);
+
+/// Mesh file for what a user named: a file as it is, or a generated mesh written to the folder.
+/// @throws std::runtime_error  it is neither
+std::filesystem::path meshNamed(const Tools& tools, const std::string& name,
+                                const std::filesystem::path& folder);
+
+/// A built-in comparison, ready to run.
+struct Case {
+  std::string name;
+  Program a;
+  Program b;
+};
+
+/// A mesh of the user's to compare on, besides the generated ones.
+struct UserInput {
+  std::string file = {};  ///< empty: none
+  int dim = 1024;
+};
+
+/// Names of the suites:
+///   issue  vox against loading OpenVDB, CGAL and the naive program, on the user's mesh, torus at
+///          2048, cube at 1024 and the even and graded triangle meshes at 256
+///   hard   vox on the torus at 2048 against vox on each mesh that invites a blow-up
+const std::vector<std::string>& suiteNames();
+
+/// The comparisons of a suite; meshes are written to the folder, and so will be outputs.
+std::vector<Case> suiteCases(const std::string& name, const Tools& tools, const UserInput& user,
+                             const std::filesystem::path& folder);
+
+}  // namespace vox::bench

@@ -1,0 +1,78 @@
+// Shared OpenVDB nodes, one lock a page.
+
+#include "libvox/grid/surface_grid.h"
+
+#include "libvox/core/error.h"
+
+#include <tuple>
+#include <utility>
+
+namespace vox {
+namespace {
+
+using Leaf = openvdb::MaskTree::LeafNodeType;
+using Upper = openvdb::MaskTree::RootNodeType::ChildNodeType;
+
+/// What the heap needs for an object besides its size.
+constexpr std::uint64_t kHeapOverhead = 16;
+
+}  // namespace
+
+SurfaceGrid::~SurfaceGrid() {
+  for (auto& [origin, page] : pages_) delete page.node;
+}
+
+void SurfaceGrid::account(std::uint64_t bytes) {
+  const std::uint64_t total = memoryBytes_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
+  if (memoryLimit_ > 0 && total > memoryLimit_)
+    throw LimitError(
+        "the grid needs more than the " + formatBytes(memoryLimit_) +
+        " that are left for it: the surface is large, or scattered over much space; use "
+        "larger voxels, or raise --max-memory");
+}
+
+SurfaceGrid::Page& SurfaceGrid::pageOf(const openvdb::Coord& voxel) {
+  const openvdb::Coord origin = (voxel >> kPageLog2) << kPageLog2;
+  const auto found = pages_.find(origin);
+  if (found != pages_.end()) return found->second;
+  return pages_
+      .emplace(std::piecewise_construct, std::forward_as_tuple(origin), std::forward_as_tuple())
+      .first->second;
+}
+
+void SurfaceGrid::add(Page& page, const openvdb::Coord& leafOrigin, const LeafWords& words) {
+  const tbb::spin_mutex::scoped_lock lock(page.lock);
+  if (page.node == nullptr) {
+    account(sizeof(PageNode) + kHeapOverhead);
+    if (uppers_.insert((leafOrigin >> kUpperLog2) << kUpperLog2).second)
+      account(sizeof(Upper) + kHeapOverhead);
+    page.node = new PageNode((leafOrigin >> kPageLog2) << kPageLog2, false);
+  }
+  Leaf* leaf = page.node->probeLeaf(leafOrigin);
+  if (leaf == nullptr) {
+    account(sizeof(Leaf) + kHeapOverhead);
+    leaf = new Leaf(leafOrigin, false);
+    page.node->addLeaf(leaf);
+  }
+  std::uint64_t* const bits = leaf->buffer().data();
+  for (std::size_t x = 0; x < words.size(); ++x) bits[x] |= words[x];
+}
+
+openvdb::MaskTree::Ptr SurfaceGrid::takeTree() {
+  auto tree = std::make_shared<openvdb::MaskTree>();
+  for (auto& [origin, page] : pages_) {
+    if (page.node == nullptr) continue;
+    Upper* upper = tree->probeNode<Upper>(origin);
+    if (upper == nullptr) {
+      upper = new Upper(origin, false);
+      tree->root().addChild(upper);
+    }
+    upper->addChild(std::exchange(page.node, nullptr));
+  }
+  pages_.clear();
+  uppers_.clear();
+  memoryBytes_ = 0;
+  return tree;
+}
+
+}  // namespace vox

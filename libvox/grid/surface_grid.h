@@ -1,0 +1,73 @@
+#pragma once
+
+#include "libvox/core/memory.h"
+#include "libvox/core/types.h"
+
+#include <openvdb/openvdb.h>
+#include <tbb/concurrent_unordered_map.h>
+#include <tbb/concurrent_unordered_set.h>
+#include <tbb/spin_mutex.h>
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+namespace vox {
+
+/// Bits of one leaf (8^3 voxels) in OpenVDB's order: word x, bit 8 y + z.
+using LeafWords = std::array<std::uint64_t, 8>;
+
+/// The black voxels that all tasks find, as the OpenVDB nodes that become the grid: nothing is
+/// copied or merged at the end. A page is an inner node of 128^3 voxels with a lock of its own;
+/// tasks OR whole leaves into it. Order does not matter, so the voxels do not depend on threads.
+/// Source: DESIGN section 8.
+class SurfaceGrid {
+ public:
+  /// @param memoryLimit  bytes the nodes may take, 0: no limit
+  explicit SurfaceGrid(std::uint64_t memoryLimit = 0) : memoryLimit_(memoryLimit) {}
+  ~SurfaceGrid();
+  SurfaceGrid(const SurfaceGrid&) = delete;
+  SurfaceGrid& operator=(const SurfaceGrid&) = delete;
+
+  using PageNode = openvdb::MaskTree::RootNodeType::ChildNodeType::ChildNodeType;
+
+  struct Page {
+    tbb::spin_mutex lock;
+    PageNode* node = nullptr;
+  };
+
+  /// The page of a voxel; made when it is not there. Valid as long as the grid. Thread-safe.
+  /// @throws LimitError  the nodes would take more than the limit
+  Page& pageOf(const openvdb::Coord& voxel);
+
+  /// Switches on the voxels of a leaf, given by its origin, in its page. Thread-safe.
+  /// @throws LimitError  as pageOf
+  void add(Page& page, const openvdb::Coord& leafOrigin, const LeafWords& words);
+
+  /// Bytes of the nodes so far.
+  std::uint64_t memoryBytes() const { return memoryBytes_; }
+
+  /// Hangs the pages into a tree and leaves this grid empty. Not thread-safe.
+  openvdb::MaskTree::Ptr takeTree();
+
+ private:
+  void account(std::uint64_t bytes);
+
+  static constexpr std::size_t kPageLog2 = 7;
+  static constexpr std::size_t kUpperLog2 = 12;
+  struct OriginHash {
+    std::size_t operator()(const openvdb::Coord& origin) const {
+      std::size_t hash = 0;
+      for (const auto i : {origin.x(), origin.y(), origin.z()})
+        hash = (hash ^ static_cast<std::uint32_t>(i >> kPageLog2)) * 0x9e3779b97f4a7c15ULL;
+      return hash ^ hash >> 32U;
+    }
+  };
+  tbb::concurrent_unordered_map<openvdb::Coord, Page, OriginHash> pages_;
+  tbb::concurrent_unordered_set<openvdb::Coord, OriginHash>
+      uppers_;  // nodes the pages will hang in
+  std::uint64_t memoryLimit_;
+  std::atomic<std::uint64_t> memoryBytes_{0};
+};
+
+}  // namespace vox

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "libvox/core/types.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace vox {
+
+/// The four faces around a vertex, by where they lie: u-, v- is quadrant 0, u-, v+ is 1, u+, v- is
+/// 2, u+, v+ is 3; bit q of a set stands for quadrant q.
+inline constexpr std::uint8_t kAllQuadrants = 0xF;
+
+/// A vertex whose four faces are quads: the 3 x 3 array of control points around it. Below it,
+/// Doo-Sabin is refinement of a uniform biquadratic B-spline: k levels down the vertex has become
+/// N x N vertices, N = 2^k, at
+///   sum_ab w_a(i) w_b(j) P_ab,  w_-(i) = (N-i)(N-i-1) / 2N^2,  w_+(i) = i(i+1) / 2N^2,
+///   w_0 = 1 - w_- - w_+,
+/// for i, j = 0 .. N - 1. Source: DESIGN section 5.
+struct Patch {
+  std::array<std::array<Vec3d, 3>, 3> points;  ///< [u][v]; the vertex itself is points[1][1]
+  /// Faces that exist; where one is missing (at a free boundary) its opposite corner is not read.
+  std::uint8_t quadrants = kAllQuadrants;
+};
+
+/// Three neighbours along a curve that is refined as a uniform quadratic B-spline: the middle one
+/// becomes N points w_-(j) P_- + w_0(j) P_0 + w_+(j) P_+.
+using CurvePoints = std::array<Vec3d, 3>;
+
+/// Where w puts a point between its two neighbours along one axis, for index i of N.
+struct PatchWeights {
+  double minus;
+  double zero;
+  double plus;
+  PatchWeights(std::int64_t i, std::int64_t n) {
+    const double square = 2.0 * static_cast<double>(n) * static_cast<double>(n);
+    minus = static_cast<double>(n - i) * static_cast<double>(n - i - 1) / square;
+    plus = static_cast<double>(i) * static_cast<double>(i + 1) / square;
+    zero = 1 - minus - plus;
+  }
+  Vec3d operator()(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+    return minus * a + zero * b + plus * c;
+  }
+};
+
+/// Receives the vertices of a subdivided surface, each at the level where its neighbourhood is
+/// fine enough. Coordinates are in index space (voxels).
+class SurfaceSink {
+ public:
+  virtual ~SurfaceSink() = default;
+  /// Vertices of one level.
+  virtual void points(std::span<const Vec3d> points, int level) = 0;
+  /// What a vertex of `level` - k has become, k levels down. Some quadrants may be missing.
+  virtual void patch(const Patch& patch, int k, int level) = 0;
+  /// The same for a vertex of the boundary.
+  virtual void curve(const CurvePoints& points, int k, int level) = 0;
+};
+
+}  // namespace vox

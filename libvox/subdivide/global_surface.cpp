@@ -1,0 +1,159 @@
+// Whole levels, and for each vertex how many more it needs.
+
+#include "libvox/subdivide/global_surface.h"
+
+#include "libvox/core/error.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "libvox/subdivide/stop.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace vox {
+namespace {
+
+/// Levels that a vertex still needs; or one of these.
+constexpr int kUndecided = -1;  ///< irregular, and not fine enough
+constexpr int kEmitted = -2;    ///< an ancestor is fine enough
+
+/// One level >= 1 and what its vertices need.
+class Decisions {
+ public:
+  Decisions(const SubdivisionLevel& level, std::vector<int> levelsToGo)
+      : mesh_(level.mesh),
+        adjacency_(level.adjacency),
+        strips_(level.boundary == BoundaryStage::kStrips),
+        levelsToGo_(std::move(levelsToGo)),
+        cornerAt_(mesh_.pointCount(), kNone),
+        onBoundary_(mesh_.pointCount(), false) {
+    for (Index c = 0; c < mesh_.cornerCount(); ++c) {
+      const Index v = mesh_.faceVertices[c];
+      cornerAt_[v] = std::min(cornerAt_[v], c);
+      if (adjacency_.twin[c] == kNone) onBoundary_[v] = onBoundary_[endOf(c)] = true;
+    }
+  }
+
+  std::vector<int> run() {
+    for (Index v = 0; v < mesh_.pointCount(); ++v)
+      if (levelsToGo_[v] == kUndecided && cornerAt_[v] != kNone) decide(v);
+    return std::move(levelsToGo_);
+  }
+
+ private:
+  Index endOf(Index c) const { return mesh_.faceVertices[nextCorner(mesh_, adjacency_, c)]; }
+  Index faceOf(Index c) const { return adjacency_.cornerFace[c]; }
+
+  void decide(Index v) {
+    const OneRing ring = oneRing(mesh_, adjacency_, cornerAt_[v]);
+    if (strips_ && onBoundary_[v]) {
+      levelsToGo_[v] = curveDepth(largestFace(ring));
+      return;
+    }
+    if (const auto patch = patchAround(ring))
+      levelsToGo_[v] = patchDepth(*patch);
+    else if (largestFace(ring) <= kVertexConversionSpan)
+      levelsToGo_[v] = 0;
+  }
+
+  double largestFace(const OneRing& ring) const {
+    double largest = 0;
+    std::vector<Vec3d> points;
+    for (const Index c : ring.corners) {
+      points.clear();
+      for (const Index v : mesh_.face(faceOf(c))) points.push_back(mesh_.points[v]);
+      largest = std::max(largest, diameter(points));
+    }
+    return largest;
+  }
+
+  /// Quads only, four of them, or fewer at a free boundary.
+  std::optional<Patch> patchAround(const OneRing& ring) const {
+    if (ring.closed ? ring.corners.size() != 4 : ring.corners.size() > 3) return {};
+    for (const Index c : ring.corners)
+      if (mesh_.faceSize(faceOf(c)) != 4) return {};
+    // Quadrants in counter-clockwise order, and the steps to the next vertex along each face.
+    constexpr std::array<std::array<int, 2>, 4> kAlong = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+    constexpr std::array<unsigned, 4> kQuadrant = {3, 1, 0, 2};
+    Patch patch;
+    for (auto& row : patch.points) row.fill(mesh_.points[mesh_.faceVertices[ring.corners[0]]]);
+    unsigned quadrants = 0;
+    for (std::size_t k = 0; k < ring.corners.size(); ++k) {
+      const auto& a = kAlong[k];
+      const auto& b = kAlong[(k + 1) % 4];
+      const auto put = [&](int u, int v, const Vec3d& p) {
+        patch.points[static_cast<std::size_t>(u + 1)][static_cast<std::size_t>(v + 1)] = p;
+      };
+      const auto face = quadFrom(ring.corners[k]);
+      put(a[0], a[1], face[1]);
+      put(a[0] + b[0], a[1] + b[1], face[2]);
+      put(b[0], b[1], face[3]);
+      quadrants |= 1U << kQuadrant[k];
+    }
+    patch.quadrants = static_cast<std::uint8_t>(quadrants);
+    return patch;
+  }
+
+  /// The points of a quad from one of its corners on. Two on the boundary of an extended surface
+  /// are replaced by mirror images of the other two, whose middles they are.
+  std::array<Vec3d, 4> quadFrom(Index corner) const {
+    std::array<Vec3d, 4> points;
+    std::array<Index, 4> corners;
+    Index c = corner;
+    for (std::size_t i = 0; i < 4; ++i, c = nextCorner(mesh_, adjacency_, c)) {
+      corners[i] = c;
+      points[i] = mesh_.points[mesh_.faceVertices[c]];
+    }
+    if (!strips_) return points;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (adjacency_.twin[corners[i]] != kNone) continue;
+      const std::size_t start = i;
+      const std::size_t end = (i + 1) % 4;
+      points[start] = 2.0 * points[start] - points[(start + 3) % 4];
+      points[end] = 2.0 * points[end] - points[(end + 1) % 4];
+    }
+    return points;
+  }
+
+  const PolygonMesh& mesh_;
+  const Adjacency& adjacency_;
+  bool strips_;
+  std::vector<int> levelsToGo_;
+  std::vector<Index> cornerAt_;  // the lowest at each vertex
+  std::vector<bool> onBoundary_;
+};
+
+/// Emits the vertices that are there, and says what the points of the next level need.
+std::vector<int> emitLevel(const SubdivisionLevel& level, const std::vector<int>& levelsToGo,
+                           int number, SurfaceSink& sink) {
+  std::vector<Vec3d> finished;
+  for (Index v = 0; v < level.mesh.pointCount(); ++v)
+    if (levelsToGo[v] == 0) finished.push_back(level.mesh.points[v]);
+  if (!finished.empty()) sink.points(finished, number);
+  std::vector<int> next(level.mesh.cornerCount());
+  for (Index c = 0; c < level.mesh.cornerCount(); ++c) {
+    const int parent = levelsToGo[level.mesh.faceVertices[c]];
+    next[c] = parent > 0 ? parent - 1 : parent == 0 ? kEmitted : parent;
+  }
+  return next;
+}
+
+}  // namespace
+
+void emitGlobally(SubdivisionLevel base, SurfaceSink& sink,
+                  const std::function<void(const SubdivisionLevel&)>& requireRoom) {
+  SubdivisionLevel level = std::move(base);
+  std::vector<int> levelsToGo(nextPointCount(level), kUndecided);
+  for (int number = 1;; ++number) {
+    requireRoom(level);
+    level = nextLevel(level, imageVertices(level));
+    levelsToGo = Decisions(level, std::move(levelsToGo)).run();
+    levelsToGo = emitLevel(level, levelsToGo, number, sink);
+    if (std::all_of(levelsToGo.begin(), levelsToGo.end(), [](int n) { return n == kEmitted; }))
+      return;
+  }
+}
+
+}  // namespace vox

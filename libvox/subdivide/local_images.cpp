@@ -1,0 +1,167 @@
+// Level 1 around the faces of a submesh.
+
+#include "libvox/subdivide/local_images.h"
+
+#include "libvox/subdivide/stop.h"
+#include "libvox/subdivide/strip.h"
+
+#include <algorithm>
+#include <array>
+
+namespace vox {
+namespace {
+
+Vec3d chaikin(const Vec3d& near, const Vec3d& far) {
+  return (3.0 * near + far) / 4.0;
+}
+
+Vec3d mirror(const Vec3d& point, const Vec3d& middle) {
+  return 2.0 * middle - point;
+}
+
+}  // namespace
+
+LocalImages::LocalImages(const SubdivisionLevel& base)
+    : base_(base),
+      firstSlot_(base.mesh.faceCount(), kNone),
+      starAt_(base.mesh.pointCount(), kNone) {}
+
+void LocalImages::set(std::span<const Index> faces) {
+  for (const Index f : known_) firstSlot_[f] = kNone;
+  for (const Index f : faces_)
+    for (const Index v : base_.mesh.face(f)) starAt_[v] = kNone;
+  known_.clear();
+  images_.clear();
+  stars_.clear();
+  starPoints_.clear();
+  faces_ = faces;
+
+  for (const Index f : faces) addFace(f);
+  ownSlots_ = static_cast<Index>(images_.size());
+  edges_.resize(ownSlots_);
+  starOf_.resize(ownSlots_);
+  placeInStar_.resize(ownSlots_);
+  for (const Index f : faces)
+    for (Index c = base_.mesh.faceOffsets[f]; c < base_.mesh.faceOffsets[f + 1]; ++c)
+      if (starAt_[base_.mesh.faceVertices[c]] == kNone) addStar(c);
+  Index slot = 0;
+  for (const Index f : faces)
+    for (Index c = base_.mesh.faceOffsets[f]; c < base_.mesh.faceOffsets[f + 1]; ++c)
+      addEdge(slot++, c);
+}
+
+void LocalImages::addFace(Index f) {
+  const auto face = base_.mesh.face(f);
+  corners_.clear();
+  for (const Index v : face) corners_.push_back(base_.mesh.points[v]);
+  firstSlot_[f] = static_cast<Index>(images_.size());
+  known_.push_back(f);
+  images_.resize(images_.size() + face.size());
+  faceImages_.of(corners_, std::span(images_).last(face.size()));
+}
+
+Index LocalImages::slotOfFace(Index f) {
+  if (firstSlot_[f] == kNone) addFace(f);
+  return firstSlot_[f];
+}
+
+Vec3d LocalImages::imageAt(Index corner) {
+  const Index f = base_.adjacency.cornerFace[corner];
+  return images_[slotOfFace(f) + corner - base_.mesh.faceOffsets[f]];
+}
+
+/// Lists the corners around a vertex in fan_, from a start that does not depend on the corner it
+/// begins to search at: the lowest one, or the first one of an open fan.
+/// @return 1 for a closed fan
+Index LocalImages::findFan(Index corner) {
+  const auto walk = [&](Index start) {
+    fan_.clear();
+    Index c = start;
+    do {
+      fan_.push_back(c);
+      c = nextAroundVertex(base_.mesh, base_.adjacency, c);
+    } while (c != kNone && c != start);
+    return c == start;
+  };
+  if (walk(corner)) {
+    std::rotate(fan_.begin(), std::min_element(fan_.begin(), fan_.end()), fan_.end());
+    return 1;
+  }
+  for (Index c = corner; c != kNone; c = previousAroundVertex(base_.mesh, base_.adjacency, c))
+    corner = c;
+  walk(corner);
+  return 0;
+}
+
+void LocalImages::addStar(Index corner) {
+  Star star;
+  star.closed = findFan(corner) != 0;
+  star.begin = static_cast<Index>(starPoints_.size());
+  star.fan = star.size = static_cast<Index>(fan_.size());
+  const auto number = static_cast<Index>(stars_.size());
+  for (Index place = 0; place < star.fan; ++place) {
+    const Index c = fan_[place];
+    starPoints_.push_back(imageAt(c));
+    const Index f = base_.adjacency.cornerFace[c];
+    const Index slot = firstSlot_[f] + c - base_.mesh.faceOffsets[f];
+    if (slot >= ownSlots_) continue;
+    starOf_[slot] = number;
+    placeInStar_[slot] = place;
+  }
+  if (star.closed)
+    star.diameter = diameter(std::span(starPoints_).last(star.size));
+  else if (extends())
+    closeFan(star);
+  starAt_[base_.mesh.faceVertices[corner]] = number;
+  stars_.push_back(star);
+}
+
+/// Adds what lies beyond the boundary: the fan becomes half of a polygon.
+void LocalImages::closeFan(Star& star) {
+  const PolygonMesh& mesh = base_.mesh;
+  const auto pointOf = [&](Index c) -> const Vec3d& { return mesh.points[mesh.faceVertices[c]]; };
+  const Vec3d& v = pointOf(fan_.front());
+  star.mStart = chaikin(v, pointOf(nextCorner(mesh, base_.adjacency, fan_.front())));
+  star.mEnd = chaikin(v, pointOf(previousCorner(mesh, base_.adjacency, fan_.back())));
+  starPoints_.push_back(star.mStart);
+  starPoints_.push_back(star.mEnd);
+  star.diameter = diameter(std::span(starPoints_).last(star.fan + 2));
+  starPoints_.resize(starPoints_.size() - 2);
+  if (star.fan == 1) return;
+
+  star.size = 2 * star.fan;
+  const Vec3d c = (star.mStart + star.mEnd) / 2.0;
+  const Vec3d d = (star.mStart - star.mEnd) / 2.0;
+  const std::vector<StripWeight> weights = stripWeights(star.fan);
+  for (Index i = star.fan; i-- > 0;)
+    starPoints_.push_back(mirror(starPoints_[star.begin + i], c + weights[i].ratio * d));
+}
+
+void LocalImages::addEdge(Index slot, Index corner) {
+  const PolygonMesh& mesh = base_.mesh;
+  const Index next = nextCorner(mesh, base_.adjacency, corner);
+  const Index t = base_.adjacency.twin[corner];
+  const Vec3d a = images_[slot];
+  const Vec3d b = imageAt(next);
+  EdgeFace& edge = edges_[slot];
+  edge = {};
+  edge.exists = t != kNone || extends();
+  if (!edge.exists) return;
+  Vec3d nearReal;
+  Vec3d farReal;
+  if (t != kNone) {
+    edge.near = nearReal = imageAt(nextCorner(mesh, base_.adjacency, t));
+    edge.far = farReal = imageAt(t);
+  } else {
+    const Vec3d& v = mesh.points[mesh.faceVertices[corner]];
+    const Vec3d& w = mesh.points[mesh.faceVertices[next]];
+    nearReal = chaikin(v, w);
+    farReal = chaikin(w, v);
+    edge.near = mirror(a, nearReal);
+    edge.far = mirror(b, farReal);
+  }
+  const std::array<Vec3d, 4> quad = {a, b, nearReal, farReal};
+  edge.diameter = diameter(quad);
+}
+
+}  // namespace vox

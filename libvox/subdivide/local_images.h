@@ -1,0 +1,90 @@
+#pragma once
+
+#include "libvox/subdivide/face_images.h"
+#include "libvox/subdivide/level.h"
+
+#include <span>
+#include <vector>
+
+namespace vox {
+
+/// Level 1 of a submesh: the images of its faces, of its one-ring as far as somebody asks, and the
+/// faces that they form around edges and vertices. The base mesh is only read; work arrays are kept
+/// from one submesh to the next. Whatever the submesh, an image has the same bits.
+class LocalImages {
+ public:
+  /// The level-1 face around a vertex: its V-face, or at the boundary of an extended surface the
+  /// half V-face with its mirror image: n = 2m corners for m > 1 faces, of which the first m are
+  /// real.
+  struct Star {
+    Index begin = 0;  ///< of its points in starPoints
+    Index size = 0;   ///< n; with m = 1, or without a V-face (at a free boundary), the fan itself
+    Index fan = 0;    ///< m, real corners
+    bool closed = false;
+    double diameter = 0;  ///< of its real half, with the two points on the boundary
+    Vec3d mStart = Vec3d::Zero(),
+          mEnd =
+              Vec3d::Zero();  ///< those points: Chaikin points of the edges that leave and arrive
+  };
+  /// The level-1 face across the edge of a corner, or the mirrored half face at an extended
+  /// boundary.
+  struct EdgeFace {
+    Vec3d near = Vec3d::Zero();  ///< the point across from the corner
+    Vec3d far = Vec3d::Zero();   ///< the point across from the next corner
+    double diameter = 0;         ///< of its real half
+    bool exists = true;
+  };
+
+  /// @param base  level 0: an oriented manifold with one fan of faces at each vertex
+  explicit LocalImages(const SubdivisionLevel& base);
+
+  /// Replaces the submesh. Cost: its corners, and those of its one-ring.
+  void set(std::span<const Index> faces);
+
+  const SubdivisionLevel& base() const { return base_; }
+  std::span<const Index> faces() const { return faces_; }
+  bool extends() const { return base_.boundary == BoundaryStage::kExtend; }
+
+  /// Slots 0 .. ownSlots() - 1 are the corners of the submesh, face by face.
+  Index ownSlots() const { return ownSlots_; }
+  const Vec3d& image(Index slot) const { return images_[slot]; }
+  std::span<const Vec3d> imagesOfFace(Index firstSlot, Index size) const {
+    return std::span(images_).subspan(firstSlot, size);
+  }
+  const EdgeFace& edgeFace(Index slot) const { return edges_[slot]; }
+  const Star& star(Index slot) const { return stars_[starOf_[slot]]; }
+  Index starNumber(Index slot) const { return starOf_[slot]; }
+  Index placeInStar(Index slot) const { return placeInStar_[slot]; }
+
+  const std::vector<Star>& stars() const { return stars_; }
+  /// Level-1 points around the vertices, counter-clockwise; a fan starts at the boundary edge that
+  /// leaves the vertex.
+  const std::vector<Vec3d>& starPoints() const { return starPoints_; }
+
+ private:
+  Index slotOfFace(Index f);
+  Vec3d imageAt(Index corner);
+  void addFace(Index f);
+  void addStar(Index corner);
+  Index findFan(Index corner);
+  void closeFan(Star& star);
+  void addEdge(Index slot, Index corner);
+
+  const SubdivisionLevel& base_;
+  std::span<const Index> faces_;
+  Index ownSlots_ = 0;
+  std::vector<Index> firstSlot_;  // per face of the base, or kNone
+  std::vector<Index> known_;      // faces that have slots
+  std::vector<Index> starAt_;     // per vertex of the base, or kNone
+  std::vector<Vec3d> images_;
+  std::vector<EdgeFace> edges_;
+  std::vector<Index> starOf_;
+  std::vector<Index> placeInStar_;
+  std::vector<Star> stars_;
+  std::vector<Vec3d> starPoints_;
+  std::vector<Index> fan_;
+  std::vector<Vec3d> corners_;
+  FaceImages faceImages_;
+};
+
+}  // namespace vox

@@ -1,0 +1,225 @@
+// From the faces of a submesh to regular patches.
+
+#include "libvox/subdivide/local_surface.h"
+
+#include "libvox/subdivide/stop.h"
+
+#include <algorithm>
+
+namespace vox {
+namespace {
+
+Index before(const LocalImages::Star& star, Index place) {
+  return star.begin + (place == 0 ? star.size : place) - 1;
+}
+Index after(const LocalImages::Star& star, Index place) {
+  return star.begin + (place + 1 == star.size ? 0 : place + 1);
+}
+
+}  // namespace
+
+void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
+  images_.set(faces);
+  const std::size_t starPoints = images_.starPoints().size();
+  starKnown_.assign(images_.stars().size(), false);
+  starActive_.assign(starPoints, false);
+  for (auto* points : {&starImages_, &starNear_, &starFar_, &starCorner_})
+    points->resize(starPoints);
+  finished_.clear();
+
+  Index slot = 0;
+  for (const Index f : faces) {
+    const Index size = images_.base().mesh.faceSize(f);
+    emitFace(slot, size, sink);
+    if (images_.extends()) emitBoundary(f, slot, sink);
+    slot += size;
+  }
+  if (!finished_.empty()) sink.points(finished_, 1);
+  emitStars(sink);
+}
+
+void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
+  const auto points = images_.imagesOfFace(firstSlot, size);
+  const double faceDiameter = diameter(points);
+  undecided_.assign(size, false);
+  bool any = false;
+  for (Index i = 0; i < size; ++i)
+    if (!emitAtLevelOne({firstSlot, i, size}, faceDiameter, sink)) {
+      undecided_[i] = true;
+      any = true;
+    }
+  if (!any) return;
+
+  facePoints_.resize(size);
+  faceImages_.of(points, facePoints_);
+  if (size != 4) {
+    around_.reset(size);
+    around_.inner = facePoints_;
+  }
+  for (Index i = 0; i < size; ++i)
+    if (undecided_[i]) split({firstSlot, i, size}, sink);
+  if (size != 4) extraordinary_.run(around_, 2, sink);
+}
+
+/// The surroundings of a level-1 vertex in a quad whose V-face is a quad or missing.
+Patch LocalSurface::patchAt(const Corner& at) const {
+  const LocalImages::Star& star = images_.star(at.slot());
+  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
+  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
+  const bool hasK = star.closed || images_.extends();
+  const Vec3d& center = images_.image(at.slot());
+  const Vec3d& beyond =
+      hasK ? images_.starPoints()[star.begin + (images_.placeInStar(at.slot()) ^ 2U)] : center;
+  const unsigned quadrants = (hasK ? 1U : 0U) | (left.exists ? 2U : 0U) | (right.exists ? 4U : 0U);
+  return {{{{beyond, left.far, left.near},
+            {right.near, center, images_.image(at.previous())},
+            {right.far, images_.image(at.next()), images_.image(at.opposite())}}},
+          static_cast<std::uint8_t>(quadrants | 8U)};
+}
+
+/// Emits a level-1 vertex that is regular, with all below it, or that is fine enough.
+bool LocalSurface::emitAtLevelOne(const Corner& at, double faceDiameter, SurfaceSink& sink) {
+  const LocalImages::Star& star = images_.star(at.slot());
+  const bool hasK = star.closed || images_.extends();
+  if (at.size == 4 && (!hasK || star.size == 4)) {
+    emitRegular(patchAt(at), 1, sink);
+    return true;
+  }
+  const double size = std::max({faceDiameter, images_.edgeFace(at.slot()).diameter,
+                                images_.edgeFace(at.previous()).diameter, star.diameter});
+  if (size > kVertexConversionSpan) return false;
+  finished_.push_back(images_.image(at.slot()));
+  return true;
+}
+
+/// One step at a level-1 vertex: emits its regular children and hands the others to the face and
+/// the star that they lie in.
+void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
+  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
+  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
+  const Vec3d& center = images_.image(at.slot());
+  VertexSplit split;
+  split.f0 = facePoints_[at.place];
+  split.fNext = facePoints_[at.next() - at.first];
+  split.fPrevious = facePoints_[at.previous() - at.first];
+  if (at.size == 4) split.fOpposite = facePoints_[at.opposite() - at.first];
+  split.r = quadImages(center, images_.image(at.next()), right.far, right.near);
+  split.l = quadImages(center, images_.image(at.previous()), left.near, left.far);
+  split.hasR = right.exists;
+  split.hasL = left.exists;
+  splitInStar(at, split);
+
+  split.emitSides(2, sink);
+  if (at.size == 4)
+    split.emitInF(2, sink);
+  else
+    joinFace(at, split);
+  const LocalImages::Star& star = images_.star(at.slot());
+  if (split.hasK && star.size == 4)
+    split.emitInK(2, sink);
+  else if (split.hasK && star.size > 1)
+    joinStar(at, split);
+  else if (split.hasK)
+    subdivideBoundaryCorner(
+        {split.k0, TriangleImages(center, star.mStart, star.mEnd).mStart,
+         TriangleImages(center, star.mStart, star.mEnd).mEnd, split.r[0],
+         (split.r[0] + split.r[3]) / 2.0, split.l[0], (split.l[0] + split.l[3]) / 2.0, split.f0},
+        2, sink);
+}
+
+/// Level 2 in the V-face; computed for the whole star when somebody first asks.
+void LocalSurface::splitInStar(const Corner& at, VertexSplit& split) {
+  const LocalImages::Star& star = images_.star(at.slot());
+  split.hasK = star.closed || images_.extends();
+  if (!split.hasK) return;
+  if (star.size == 1) {
+    const TriangleImages t(images_.image(at.slot()), star.mStart, star.mEnd);
+    split.k0 = t.u;
+    split.kRight = 2.0 * t.mStart - t.u;
+    split.kLeft = 2.0 * t.mEnd - t.u;
+    return;
+  }
+  const Index number = images_.starNumber(at.slot());
+  if (!starKnown_[number])
+    faceImages_.of(std::span(images_.starPoints()).subspan(star.begin, star.size),
+                   std::span(starImages_).subspan(star.begin, star.size));
+  starKnown_[number] = true;
+  const Index place = images_.placeInStar(at.slot());
+  split.k0 = starImages_[star.begin + place];
+  split.kRight = starImages_[before(star, place)];
+  split.kLeft = starImages_[after(star, place)];
+  if (star.size == 4) split.kOpposite = starImages_[star.begin + (place ^ 2U)];
+}
+
+/// The corner becomes an active vertex of its face, seen at level 2.
+void LocalSurface::joinFace(const Corner& at, const VertexSplit& split) {
+  const std::size_t i = at.place;
+  const std::size_t j = at.previous() - at.first;
+  around_.near[i] = split.r[0];
+  around_.far[i] = split.r[1];
+  around_.near[j] = split.l[1];
+  around_.far[j] = split.l[0];
+  around_.corner[i] = split.k0;
+  around_.hasEdge[i] = split.hasR;
+  around_.hasEdge[j] = split.hasL;
+  around_.hasCorner[i] = split.hasR && split.hasL && split.hasK;
+  around_.active[i] = true;
+}
+
+/// The same for its star, in which the next corner lies to the left.
+void LocalSurface::joinStar(const Corner& at, const VertexSplit& split) {
+  const LocalImages::Star& star = images_.star(at.slot());
+  const Index place = images_.placeInStar(at.slot());
+  const Index i = star.begin + place;
+  const Index j = before(star, place);
+  starNear_[i] = split.l[0];
+  starFar_[i] = split.l[3];
+  starNear_[j] = split.r[3];
+  starFar_[j] = split.r[0];
+  starCorner_[i] = split.f0;
+  starActive_[i] = true;
+}
+
+void LocalSurface::emitStars(SurfaceSink& sink) {
+  const auto part = [](const auto& all, const LocalImages::Star& star) {
+    return std::span(all).subspan(star.begin, star.size);
+  };
+  for (const LocalImages::Star& star : images_.stars()) {
+    const auto active = part(starActive_, star);
+    if (std::find(active.begin(), active.end(), true) == active.end()) continue;
+    const auto copy = [&](const auto& from, auto& to) {
+      const auto points = part(from, star);
+      to.assign(points.begin(), points.end());
+    };
+    star_.reset(star.size);
+    copy(starImages_, star_.inner);
+    copy(starNear_, star_.near);
+    copy(starFar_, star_.far);
+    copy(starCorner_, star_.corner);
+    copy(starActive_, star_.active);
+    star_.real = star.fan;
+    extraordinary_.run(star_, 2, sink);
+  }
+}
+
+/// The points of the boundary curve that the boundary edges of a face make.
+void LocalSurface::emitBoundary(Index f, Index firstSlot, SurfaceSink& sink) {
+  const PolygonMesh& mesh = images_.base().mesh;
+  const Index size = mesh.faceSize(f);
+  for (Index i = 0; i < size; ++i) {
+    const Index c = mesh.faceOffsets[f] + i;
+    if (images_.base().adjacency.twin[c] != kNone) continue;
+    const Corner at{firstSlot, i, size};
+    const LocalImages::Star& start = images_.star(at.slot());
+    const LocalImages::Star& end = images_.star(at.next());
+    const double edge = images_.edgeFace(at.slot()).diameter;
+    const auto emit = [&](const CurvePoints& points, double starDiameter) {
+      const int k = curveDepth(std::max(edge, starDiameter));
+      sink.curve(points, k, 1 + k);
+    };
+    emit({start.mEnd, start.mStart, end.mEnd}, start.diameter);
+    emit({start.mStart, end.mEnd, end.mStart}, end.diameter);
+  }
+}
+
+}  // namespace vox

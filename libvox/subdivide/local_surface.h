@@ -1,0 +1,69 @@
+#pragma once
+
+#include "libvox/mesh/patch.h"
+#include "libvox/subdivide/extraordinary.h"
+#include "libvox/subdivide/local_images.h"
+#include "libvox/subdivide/vertex_split.h"
+
+#include <span>
+#include <vector>
+
+namespace vox {
+
+/// Subdivides submeshes of a base mesh, each vertex only until it is fine enough (stop.h), and
+/// never builds a refined mesh: regular vertices leave as patches, what lies around an
+/// extraordinary face or vertex is a ring that shrinks.
+///
+/// A face owns its corners, a corner the level-1 vertex it makes and all that descends from it, and
+/// at an extended boundary the boundary points of its edge. So over submeshes that cover the mesh
+/// once, every vertex is emitted exactly once, and its bits do not depend on how the mesh is cut.
+///
+/// One object per thread. Source: paper section 4; DESIGN section 5.
+class LocalSurface {
+ public:
+  /// @param base  level 0, in index space: an oriented manifold with one fan of faces at each
+  /// vertex
+  explicit LocalSurface(const SubdivisionLevel& base) : images_(base) {}
+
+  /// Gives the sink all vertices that the corners of these faces own, each at its own level. The
+  /// span must stay valid until the next call.
+  /// @throws LimitError  coordinates out of all range
+  void emit(std::span<const Index> faces, SurfaceSink& sink);
+
+ private:
+  /// A corner of a face of the submesh, by slots.
+  struct Corner {
+    Index first;  // of the face
+    Index place;  // in the face
+    Index size;   // of the face
+    Index slot() const { return first + place; }
+    Index next() const { return place + 1 == size ? first : first + place + 1; }
+    Index previous() const { return (place == 0 ? first + size : first + place) - 1; }
+    Index opposite() const { return first + (place ^ 2U); }  // in a quad
+  };
+
+  void emitFace(Index firstSlot, Index size, SurfaceSink& sink);
+  bool emitAtLevelOne(const Corner& corner, double faceDiameter, SurfaceSink& sink);
+  Patch patchAt(const Corner& corner) const;
+  void split(const Corner& corner, SurfaceSink& sink);
+  void splitInStar(const Corner& corner, VertexSplit& split);
+  void joinFace(const Corner& corner, const VertexSplit& split);
+  void joinStar(const Corner& corner, const VertexSplit& split);
+  void emitStars(SurfaceSink& sink);
+  void emitBoundary(Index f, Index firstSlot, SurfaceSink& sink);
+
+  LocalImages images_;
+  FaceImages faceImages_;
+  std::vector<Vec3d> finished_;          // level-1 vertices that are fine enough
+  std::vector<Vec3d> facePoints_;        // level 2 of one face
+  std::vector<std::uint8_t> undecided_;  // per corner of one face
+  ExtraordinaryFace around_;             // that face, if it is no quad
+  std::vector<Vec3d> starImages_;        // level 2 of the stars, where needed
+  std::vector<std::uint8_t> starKnown_;
+  std::vector<Vec3d> starNear_, starFar_, starCorner_;  // as ExtraordinaryFace, per point of a star
+  std::vector<std::uint8_t> starActive_;
+  ExtraordinaryFace star_;  // one of them
+  ExtraordinarySubdivision extraordinary_;
+};
+
+}  // namespace vox

@@ -1,0 +1,144 @@
+// Vertex conversion (Cohen, Kaufman & Wang 1994, section 5).
+
+#include "libvox/voxelize/vertex_sink.h"
+
+#include "libvox/grid/voxel.h"
+#include "libvox/voxelize/tile.h"
+
+namespace vox {
+namespace {
+
+using openvdb::Coord;
+
+std::array<Vec3d, 4> refine(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  return {(3.0 * a + b) / 4.0, (a + 3.0 * b) / 4.0, (3.0 * b + c) / 4.0, (b + 3.0 * c) / 4.0};
+}
+
+/// Box of the Bezier points of a patch, which holds all its descendants: each level cuts corners.
+struct VoxelBox {
+  Coord low, high;
+  explicit VoxelBox(const Patch& patch) {
+    const auto bezier = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+      return std::array<Vec3d, 3>{(a + b) / 2.0, b, (b + c) / 2.0};
+    };
+    std::array<std::array<Vec3d, 3>, 3> rows;
+    for (std::size_t u = 0; u < 3; ++u)
+      rows[u] = bezier(patch.points[u][0], patch.points[u][1], patch.points[u][2]);
+    Vec3d least = rows[1][1];
+    Vec3d most = rows[1][1];
+    for (std::size_t v = 0; v < 3; ++v)
+      for (const Vec3d& point : bezier(rows[0][v], rows[1][v], rows[2][v])) {
+        least = least.cwiseMin(point);
+        most = most.cwiseMax(point);
+      }
+    low = voxelOf(least - Vec3d::Constant(kTileError));
+    high = voxelOf(most + Vec3d::Constant(kTileError));
+  }
+};
+
+bool fitsLeafCache(const VoxelBox& box) {
+  const Coord leaves = (box.high >> LeafCache::kLeafLog2) - (box.low >> LeafCache::kLeafLog2);
+  return leaves.x() < LeafCache::kSide && leaves.y() < LeafCache::kSide &&
+         leaves.z() < LeafCache::kSide;
+}
+
+}  // namespace
+
+std::array<std::array<Patch, 2>, 2> childrenOf(const Patch& patch) {
+  std::array<std::array<Vec3d, 4>, 3> along;
+  for (std::size_t u = 0; u < 3; ++u)
+    along[u] = refine(patch.points[u][0], patch.points[u][1], patch.points[u][2]);
+  std::array<std::array<Vec3d, 4>, 4> fine;  // [v][u]
+  for (std::size_t v = 0; v < 4; ++v) fine[v] = refine(along[0][v], along[1][v], along[2][v]);
+  std::array<std::array<Patch, 2>, 2> children;
+  for (std::size_t a = 0; a < 2; ++a)
+    for (std::size_t b = 0; b < 2; ++b)
+      for (std::size_t u = 0; u < 3; ++u)
+        for (std::size_t v = 0; v < 3; ++v) children[a][b].points[u][v] = fine[b + v][a + u];
+  return children;
+}
+
+void VertexSink::mark(const Vec3d& position) {
+  cache_.mark(voxelOf(position));
+}
+
+void VertexSink::points(std::span<const Vec3d> points, int level) {
+  vertices_[static_cast<std::size_t>(level)] += points.size();
+  for (const Vec3d& point : points) mark(point);
+}
+
+void VertexSink::curve(const CurvePoints& points, int k, int level) {
+  const std::int64_t n = std::int64_t{1} << k;
+  vertices_[static_cast<std::size_t>(level)] += static_cast<std::uint64_t>(n);
+  for (std::int64_t j = 0; j < n; ++j) mark(PatchWeights(j, n)(points[0], points[1], points[2]));
+}
+
+void VertexSink::patch(const Patch& patch, int k, int level) {
+  std::uint64_t& vertices = vertices_[static_cast<std::size_t>(level)];
+  if (patch.quadrants != kAllQuadrants) {
+    vertices += markFewQuadrants(patch, k);
+    return;
+  }
+  vertices += std::uint64_t{1} << (2 * k);
+  markWhole(patch, k);
+}
+
+/// Where faces are missing, descendants only go towards those that exist: a vertex between two
+/// faces becomes a row, one with a single face stays single, and three faces give two rows that
+/// meet.
+std::uint64_t VertexSink::markFewQuadrants(const Patch& patch, int k) {
+  const std::int64_t n = std::int64_t{1} << k;
+  const auto has = [&](unsigned quadrant) { return (patch.quadrants >> quadrant & 1U) != 0; };
+  const bool lowU = has(0) && has(1);
+  const bool highU = has(2) && has(3);
+  const bool lowV = has(0) && has(2);
+  const bool highV = has(1) && has(3);
+  std::uint64_t count = 0;
+  const auto markAt = [&](std::int64_t i, std::int64_t j) {
+    const PatchWeights u(i, n);
+    const PatchWeights v(j, n);
+    const auto& p = patch.points;
+    mark(u(v(p[0][0], p[0][1], p[0][2]), v(p[1][0], p[1][1], p[1][2]),
+           v(p[2][0], p[2][1], p[2][2])));
+    ++count;
+  };
+  // The end of an axis to which everything is drawn where the other side has a face missing.
+  const std::int64_t u = highU || (!lowU && (has(2) || has(3))) ? n - 1 : 0;
+  const std::int64_t v = highV || (!lowV && (has(1) || has(3))) ? n - 1 : 0;
+  const bool rowAlongV = lowU || highU;
+  const bool rowAlongU = lowV || highV;
+  if (rowAlongV)
+    for (std::int64_t j = 0; j < n; ++j) markAt(u, j);
+  if (rowAlongU)
+    for (std::int64_t i = 0; i < n; ++i)
+      if (!rowAlongV || i != u) markAt(i, v);
+  if (!rowAlongU && !rowAlongV) markAt(u, v);
+  return count;
+}
+
+void VertexSink::markWhole(const Patch& patch, int k) {
+  if (k < kLeastTileLevels) return markSmall(patch, k);
+  if (k <= kMostTileLevels) {
+    const VoxelBox box(patch);
+    if (fitsLeafCache(box)) {
+      cache_.claim(box.low, box.high);
+      markTile(tileControls(patch), k, cache_.marks());
+      return;
+    }
+  }
+  for (const auto& row : childrenOf(patch))
+    for (const Patch& child : row) markWhole(child, k - 1);
+}
+
+void VertexSink::markSmall(const Patch& patch, int k) {
+  const std::int64_t n = std::int64_t{1} << k;
+  const auto& p = patch.points;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const PatchWeights u(i, n);
+    const std::array<Vec3d, 3> row = {u(p[0][0], p[1][0], p[2][0]), u(p[0][1], p[1][1], p[2][1]),
+                                      u(p[0][2], p[1][2], p[2][2])};
+    for (std::int64_t j = 0; j < n; ++j) mark(PatchWeights(j, n)(row[0], row[1], row[2]));
+  }
+}
+
+}  // namespace vox

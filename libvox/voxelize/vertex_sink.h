@@ -1,0 +1,50 @@
+#pragma once
+
+#include "libvox/grid/leaf_cache.h"
+#include "libvox/mesh/patch.h"
+
+#include <array>
+#include <cstdint>
+
+namespace vox {
+
+/// Vertices of each level.
+using LevelCounts = std::array<std::uint64_t, 128>;
+
+/// Vertex conversion: rounds the vertices of a surface to voxels of a shared grid.
+///
+/// Rounding moves the corners of a triangle of L-inf diameter <= 1 to corners of one unit cube, so
+/// where every face is as small as that, the rounded surface, nowhere farther than 1/2 (L-inf) from
+/// the surface, meets a step between neighbouring voxel centres only at active voxels: no path of
+/// inactive voxels, face to face, crosses it. (A single step may cross the surface itself, into a
+/// pocket that leads nowhere.) The active voxels 6-separate its sides.
+///
+/// One per thread; the voxels do not depend on who gets which patch. Positions are exact up to
+/// kTileError (tile.h). Source: paper section 5, with the criterion of DESIGN section 6.
+class VertexSink : public SurfaceSink {
+ public:
+  explicit VertexSink(SurfaceGrid& grid) : cache_(grid) {}
+
+  void points(std::span<const Vec3d> points, int level) override;
+  void patch(const Patch& patch, int k, int level) override;
+  void curve(const CurvePoints& points, int k, int level) override;
+
+  /// Sends what is still here to the grid.
+  void flush() { cache_.flush(); }
+
+  const LevelCounts& vertices() const { return vertices_; }
+
+ private:
+  void mark(const Vec3d& position);
+  std::uint64_t markFewQuadrants(const Patch& patch, int k);
+  void markWhole(const Patch& patch, int k);
+  void markSmall(const Patch& patch, int k);
+
+  LeafCache cache_;
+  LevelCounts vertices_{};
+};
+
+/// The four patches one level below: [u][v].
+std::array<std::array<Patch, 2>, 2> childrenOf(const Patch& patch);
+
+}  // namespace vox

@@ -1,0 +1,116 @@
+#include "libvox/subdivide/local_surface.h"
+
+#include "libvox/localize/partition.h"
+#include "libvox/prepare/repair.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "libvox/subdivide/global_surface.h"
+#include "tests/shapes.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+using namespace vox;
+
+namespace {
+
+/// Collects all vertices, by level; expands patches by their definition.
+class Collector : public SurfaceSink {
+ public:
+  std::map<int, std::vector<Vec3d>> vertices;
+
+  void points(std::span<const Vec3d> points, int level) override {
+    vertices[level].insert(vertices[level].end(), points.begin(), points.end());
+  }
+  void patch(const Patch& patch, int k, int level) override {
+    const std::int64_t n = std::int64_t{1} << k;
+    const auto& p = patch.points;
+    for (std::int64_t i = 0; i < n; ++i)
+      for (std::int64_t j = 0; j < n; ++j) {
+        if (!wanted(patch.quadrants, i, j, n)) continue;
+        const PatchWeights u(i, n);
+        const PatchWeights v(j, n);
+        vertices[level].push_back(v(u(p[0][0], p[1][0], p[2][0]), u(p[0][1], p[1][1], p[2][1]),
+                                    u(p[0][2], p[1][2], p[2][2])));
+      }
+  }
+  void curve(const CurvePoints& points, int k, int level) override {
+    const std::int64_t n = std::int64_t{1} << k;
+    for (std::int64_t j = 0; j < n; ++j)
+      vertices[level].push_back(PatchWeights(j, n)(points[0], points[1], points[2]));
+  }
+
+ private:
+  /// Whether a descendant exists: it lies in the face of one quadrant, at every level in a child
+  /// whose face there exists.
+  static bool wanted(unsigned quadrants, std::int64_t i, std::int64_t j, std::int64_t n) {
+    while (n > 1) {
+      n /= 2;
+      const bool highU = i >= n;
+      const bool highV = j >= n;
+      const unsigned own = 2U * highU + highV;
+      const unsigned acrossU = own ^ 2U;
+      const unsigned acrossV = own ^ 1U;
+      const auto has = [&](unsigned q) { return (quadrants >> q & 1U) != 0; };
+      if (!has(own)) return false;
+      // Of the child's faces, one lies in its own face; those towards the sides lie on edges.
+      unsigned child = 1U << own;
+      if (has(acrossU)) child |= 1U << acrossU;
+      if (has(acrossV)) child |= 1U << acrossV;
+      if (quadrants == kAllQuadrants) child |= 1U << (3U - own);
+      quadrants = child;
+      i -= highU ? n : 0;
+      j -= highV ? n : 0;
+    }
+    return true;
+  }
+};
+
+Collector locally(const SubdivisionLevel& base, Index submeshFaces) {
+  Collector sink;
+  LocalSurface surface(base);
+  const Partition partition = coverGreedily(base.mesh, base.adjacency, submeshFaces);
+  for (Index s = 0; s < partition.size(); ++s) surface.emit(partition.submesh(s), sink);
+  return sink;
+}
+
+Collector globally(const SubdivisionLevel& base) {
+  Collector sink;
+  emitGlobally(base, sink, [](const SubdivisionLevel&) {});
+  return sink;
+}
+
+SubdivisionLevel scaled(PolygonMesh mesh, double size, BoundaryRule rule) {
+  for (Vec3d& p : mesh.points) p *= size;
+  return baseLevel(std::move(mesh), rule);
+}
+
+void requireSame(const Collector& a, const Collector& b) {
+  REQUIRE(a.vertices.size() == b.vertices.size());
+  for (const auto& [level, vertices] : a.vertices) {
+    CAPTURE(level, vertices.size());
+    REQUIRE(b.vertices.count(level) == 1);
+    REQUIRE(vertices.size() == b.vertices.at(level).size());
+    CHECK(test::samePoints(vertices, b.vertices.at(level), 1e-9));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("submeshes emit the vertices of the whole mesh, each once and at its level",
+          "[subdivide][localize][property]") {
+  for (const auto* shapes : {&test::shapes(), &test::openShapes()})
+    for (const auto& shape : *shapes)
+      for (const double size : {0.4, 3.0, 17.0})
+        for (const auto rule : {BoundaryRule::kExtend, BoundaryRule::kFree}) {
+          if (shape.closed && rule == BoundaryRule::kFree) continue;
+          CAPTURE(shape.name, size, rule == BoundaryRule::kFree);
+          RepairReport report;
+          const SubdivisionLevel base = scaled(repair(shape.mesh, {}, report), size, rule);
+          const Collector whole = globally(base);
+          for (const Index faces : {1U, 3U, 1000U}) requireSame(locally(base, faces), whole);
+        }
+}
