@@ -35,6 +35,7 @@ Scene somethingBadTwice(std::mt19937& random) {
 ConvertOptions anyOptions(std::mt19937& random, Index pointCount) {
   ConvertOptions options;
   options.dim = 4 + static_cast<int>(random() % 12);
+  options.grids = std::vector{GridKind::kMask};
   options.run.maxMemory = std::uint64_t{1} << 28;
   if (random() % 3 == 0) options.weldTolerance = 0.1 * static_cast<double>(random() % 9);
   if (random() % 6 == 0) options.strict = true;
