@@ -11,7 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <limits>
 #include <random>
 
@@ -399,7 +399,8 @@ TEST_CASE("mutated meshes end sound, repair is idempotent and repeatable", "[rep
 }
 
 TEST_CASE("adversarial meshes take no more than n log n", "[repair][property]") {
-  // Far from a second each when linear; minutes when quadratic. The limit only tells those apart.
+  // Far from a second of processor time each when linear; minutes when quadratic. The limit only
+  // tells those apart.
   const Index n = 100000;
   std::vector<PolygonMesh> hard;
   hard.push_back(test::book(static_cast<int>(n)));  // an edge of n faces
@@ -420,8 +421,8 @@ TEST_CASE("adversarial meshes take no more than n log n", "[repair][property]") 
   hard.push_back(flower);
   hard.push_back(comb);
   for (const auto& mesh : hard) {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     checkSound(repaired(mesh).mesh);
-    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
+    CHECK((std::clock() - start) / CLOCKS_PER_SEC < 20);
   }
 }
