@@ -9,6 +9,7 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 namespace vox::app {
@@ -19,6 +20,8 @@ struct Options {
   std::string output;
   ResolutionOptions resolution;
   SmoothingArguments smoothing;
+  std::optional<double> weldTolerance;
+  std::optional<bool> strict;
   std::string grids;
   CommonOptions common;
 };
@@ -29,7 +32,7 @@ void sayInterpolation(const CommonOptions& common, const ObjectReport& object) {
   std::ostringstream text;
   text << object.name << ": interpolates " << done.boundaryVertices << " boundary and "
        << done.lift.vertices << " interior vertices, " << done.lift.iterations
-       << " iterations, off by at most " << done.lift.residual << " voxels";
+       << " iterations, off by at most " << done.lift.residual << " world units";
   say(common, text.str());
 }
 
@@ -69,6 +72,8 @@ int run(const Options& options) {
   convertOptions.dim = options.resolution.dim;
   convertOptions.voxelSize = options.resolution.voxelSize;
   convertOptions.smoothing = parseSmoothing(options.smoothing);
+  convertOptions.weldTolerance = options.weldTolerance;
+  convertOptions.strict = options.strict;
   convertOptions.run = options.common.run;
   if (!options.grids.empty()) convertOptions.grids = parseGrids(options.grids);
 
@@ -94,6 +99,8 @@ Action addConvert(CLI::App& app) {
       ->group("Output");
   addResolutionOptions(*command, options->resolution);
   addSmoothingOptions(*command, options->smoothing);
+  addWeldOption(*command, options->weldTolerance);
+  addStrictOption(*command, options->strict);
   command
       ->add_option(
           "--grids", options->grids,

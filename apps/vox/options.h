@@ -3,6 +3,7 @@
 #include "libvox/grid/grid_kind.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/smoothing.h"
+#include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
 
 #include <CLI/CLI.hpp>
@@ -40,6 +41,12 @@ void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments);
 /// What they mean; reads the file of vertices.
 /// @throws UsageError, InputError
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments);
+
+/// --weld, as said.
+void addWeldOption(CLI::App& command, std::optional<double>& tolerance);
+
+/// --strict, as said; --strict=false overrides a scene.
+void addStrictOption(CLI::App& command, std::optional<bool>& strict);
 
 /// "density,mask" as grids.
 /// @throws UsageError  an unknown name

@@ -8,6 +8,7 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace vox::app {
 namespace {
@@ -17,6 +18,8 @@ struct Options {
   std::string output;
   int levels = 0;
   SmoothingArguments smoothing;
+  std::optional<double> weldTolerance;
+  std::optional<bool> strict;
   CommonOptions common;
 };
 
@@ -32,10 +35,11 @@ void write(const Options& options, const PolygonMesh& mesh) {
 
 int run(const Options& options) {
   if (!isStdout(options.output)) meshFormatFor(options.output);
-  const SmoothingOptions smoothing = parseSmoothing(options.smoothing);
+  const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
+                                          options.strict};
   const Scene scene = readScene(options.input);
   requireOutput(options.output, options.common, scene);
-  const Refinement refined = refine(scene, options.levels, smoothing, options.common.run);
+  const Refinement refined = refine(scene, options.levels, preparation, options.common.run);
   const PolygonMesh& mesh = refined.mesh;
   write(options, mesh);
   for (const std::string& warning : refined.warnings) say(options.common, "warning: " + warning);
@@ -68,6 +72,8 @@ Action addSubdivide(CLI::App& app) {
       ->type_name("K")
       ->group("Output");
   addSmoothingOptions(*command, options->smoothing);
+  addWeldOption(*command, options->weldTolerance);
+  addStrictOption(*command, options->strict);
   addCommonOptions(*command, options->common);
   return [options] { return run(*options); };
 }

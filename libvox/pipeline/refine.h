@@ -3,7 +3,7 @@
 #include "libvox/core/memory.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/polygon_mesh.h"
-#include "libvox/mesh/smoothing.h"
+#include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
 #include "libvox/prepare/interpolate.h"
 #include "libvox/subdivide/doo_sabin.h"
@@ -20,14 +20,13 @@ struct Refinement {
 };
 
 /// All objects of a scene as one mesh, after K Doo-Sabin steps; K = 0 gives the control meshes:
-/// repaired, oriented, and lifted where vertices are interpolated. What `smoothing` sets goes
-/// before what the objects say.
+/// repaired, oriented, and lifted where vertices are interpolated.
 /// @throws UsageError  levels < 0; as prepare
-/// @throws MeshError   an object has contradictory arrays or, cannot be prepared; the
-///   message names file, object and element
+/// @throws MeshError   an object has contradictory arrays, or cannot be prepared; the message names
+///   file, object and element
 /// @throws LimitError  not enough memory, or more elements than fit in 32 bits
-Refinement refine(const Scene& scene, int levels, const SmoothingOptions& smoothing,
-                  const RunOptions& options);
+Refinement refine(const Scene& scene, int levels, const PreparationOptions& preparation,
+                  const RunOptions& run);
 
 /// Level 0 of an object, ready to subdivide.
 struct PreparedObject {
@@ -36,15 +35,16 @@ struct PreparedObject {
   std::vector<std::string> warnings;
 };
 
-/// Prepares an object: repair, orientation, interpolation. `mesh` is its mesh, in world or index
-/// space; `smoothing` goes before what the object says.
+/// Prepares an object in world space: repair, orientation, interpolation. What `options` set goes
+/// before what the scene and the object say.
 /// @throws UsageError  the boundary is to be interpolated but free; vertices to interpolate are
-///   given for more than one object at once
-/// @throws MeshError   nothing is left after repair, or a vertex cannot be interpolated; the
-///   message names file, object and element
+///   given for more than one object at once; the weld tolerance is negative or not finite
+/// @throws MeshError   something had to be repaired or turned round though `strict` forbids it,
+///   nothing is left after repair, or a vertex cannot be interpolated; the message names file,
+///   object and element
 /// @throws LimitError  not enough memory
-PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMesh mesh,
-                       const SmoothingOptions& smoothing, const MemoryBudget& budget);
+PreparedObject prepare(const Scene& scene, const SceneObject& object,
+                       const PreparationOptions& options, const MemoryBudget& budget);
 
 /// Checks the arrays of every object (requireValidArrays), naming file and object.
 void requireValidScene(const Scene& scene);
