@@ -5,9 +5,11 @@
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
 #include "libvox/mesh/validate.h"
+#include "libvox/pipeline/work.h"
 #include "libvox/prepare/orient.h"
 #include "libvox/prepare/repair.h"
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <utility>
@@ -36,11 +38,6 @@ struct VertexOrigin {
   std::vector<Index> weldedTo;  ///< per vertex of the input: the one it was welded to, or itself
   std::vector<Index> of;        ///< per prepared vertex: a vertex of the input
 };
-
-bool interpolates(const SmoothingOptions& smoothing) {
-  return smoothing.interpolate.value_or(Interpolate::kNothing) != Interpolate::kNothing ||
-         (smoothing.interpolatedVertices && !smoothing.interpolatedVertices->empty());
-}
 
 void requireConsistent(const Scene& scene, const SceneObject& object,
                        const SmoothingOptions& smoothing, const SmoothingOptions& own) {
@@ -102,11 +99,19 @@ std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
   return mesh.cornerCount() * kPerCorner + mesh.pointCount() * kPerVertex;
 }
 
-SubdivisionLevel subdivided(SubdivisionLevel level, int levels, const MemoryBudget& budget) {
+/// Every step makes four times as much as the one before.
+double partOfStep(int k, int levels) {
+  return 3 * std::ldexp(1.0, 2 * (k - 1)) / (std::ldexp(1.0, 2 * levels) - 1);
+}
+
+SubdivisionLevel subdivided(SubdivisionLevel level, int levels, const MemoryBudget& budget,
+                            Progress& progress) {
   for (int k = 1; k <= levels; ++k) {
+    progress.check();
     budget.require(bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level),
                    "level " + std::to_string(k), kAdvice);
     level = nextLevel(level, imageVertices(level));
+    progress.done(partOfStep(k, levels));
   }
   return level;
 }
@@ -127,14 +132,37 @@ void append(PolygonMesh& all, PolygonMesh part) {
     all.faceOffsets.push_back(firstCorner + part.faceOffsets[f + 1]);
 }
 
+/// Work of the stages of an object.
+struct RefineWork {
+  double prepare;
+  double subdivide;
+  double write;
+  RefineWork(const SceneObject& object, int levels, const SmoothingOptions& smoothing)
+      : prepare(
+            workOfPreparing(object.mesh, interpolates(overriding(smoothing, object.smoothing)))),
+        subdivide(kPerCorner * object.mesh.cornerCount() * std::ldexp(1.0, 2 * levels)),
+        write(kWritingPerCorner * object.mesh.cornerCount() * std::ldexp(1.0, 2 * levels)) {}
+
+ private:
+  static constexpr double kPerCorner = 50;
+  static constexpr double kWritingPerCorner = 200;
+};
+
 Refinement refineAll(const Scene& scene, int levels, const SmoothingOptions& smoothing,
-                     const RunOptions& options) {
+                     const RunOptions& options, Progress& progress) {
+  for (const SceneObject& object : scene.objects) {
+    const RefineWork work(object, levels, smoothing);
+    progress.plan(work.prepare + work.subdivide + work.write);
+  }
   MemoryBudget budget(options.maxMemory);
   Refinement all;
   for (const SceneObject& object : scene.objects) {
     budget.take(bytesOf(object.mesh), "the input", kAdvice);
-    PreparedObject prepared = prepare(scene, object, object.mesh, smoothing, budget);
-    PolygonMesh part = subdivided(std::move(prepared.base), levels, budget).mesh;
+    const RefineWork work(object, levels, smoothing);
+    progress.begin("prepare", work.prepare);
+    PreparedObject prepared = prepare(scene, object, object.mesh, smoothing, budget, progress);
+    progress.begin("subdivide", work.subdivide);
+    PolygonMesh part = subdivided(std::move(prepared.base), levels, budget, progress).mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
     budget.take(2 * bytesOf(part), "the refined mesh", kAdvice);
@@ -144,6 +172,11 @@ Refinement refineAll(const Scene& scene, int levels, const SmoothingOptions& smo
 }
 
 }  // namespace
+
+bool interpolates(const SmoothingOptions& own) {
+  return own.interpolate.value_or(Interpolate::kNothing) != Interpolate::kNothing ||
+         (own.interpolatedVertices && !own.interpolatedVertices->empty());
+}
 
 std::uint64_t bytesOf(const PolygonMesh& mesh) {
   return mesh.points.size() * sizeof(Vec3d) +
@@ -171,7 +204,8 @@ void requireValidScene(const Scene& scene) {
 }
 
 PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMesh mesh,
-                       const SmoothingOptions& smoothing, const MemoryBudget& budget) {
+                       const SmoothingOptions& smoothing, const MemoryBudget& budget,
+                       Progress& progress) {
   const SmoothingOptions own = overriding(smoothing, object.smoothing);
   requireConsistent(scene, object, smoothing, own);
   constexpr std::uint64_t kPerCorner = 4 * sizeof(EdgeCorner) + 12 * sizeof(Index);
@@ -182,8 +216,11 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMes
   namingObject(scene, object, [&] {
     VertexOrigin origin;
     mesh = manifoldOf(std::move(mesh), object.name, origin, prepared.warnings);
+    progress.check();
     base = baseLevel(std::move(mesh), own.boundary.value_or(BoundaryRule::kExtend));
+    progress.check();
     if (!interpolates(own)) return;
+    progress.done(kPartBeforeInterpolation);
     budget.require(bytesOf(base) + bytesOfInterpolation(base.mesh), "interpolation",
                    "raise --max-memory");
     base.mesh = interpolate(
@@ -198,7 +235,10 @@ Refinement refine(const Scene& scene, int levels, const SmoothingOptions& smooth
                   const RunOptions& options) {
   if (levels < 0) throw UsageError("--levels must be 0 or more, not " + std::to_string(levels));
   requireValidScene(scene);
-  return onThreads(options.threads, [&] { return refineAll(scene, levels, smoothing, options); });
+  Progress unwatched;
+  Progress& progress = options.progress != nullptr ? *options.progress : unwatched;
+  return onThreads(options.threads,
+                   [&] { return refineAll(scene, levels, smoothing, options, progress); });
 }
 
 }  // namespace vox

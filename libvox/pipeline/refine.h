@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/mesh/smoothing.h"
@@ -21,11 +22,12 @@ struct Refinement {
 
 /// All objects of a scene as one mesh, after K Doo-Sabin steps; K = 0 gives the control meshes:
 /// repaired, oriented, and lifted where vertices are interpolated. What `smoothing` sets goes
-/// before what the objects say.
+/// before what the objects say. The progress keeps a share for writing the mesh: beginLast.
 /// @throws UsageError  levels < 0; as prepare
 /// @throws MeshError   an object has contradictory arrays or, cannot be prepared; the
 ///   message names file, object and element
 /// @throws LimitError  not enough memory, or more elements than fit in 32 bits
+/// @throws Cancelled
 Refinement refine(const Scene& scene, int levels, const SmoothingOptions& smoothing,
                   const RunOptions& options);
 
@@ -37,14 +39,19 @@ struct PreparedObject {
 };
 
 /// Prepares an object: repair, orientation, interpolation. `mesh` is its mesh, in world or index
-/// space; `smoothing` goes before what the object says.
+/// space; `smoothing` goes before what the object says. Credits the current stage of `progress`.
 /// @throws UsageError  the boundary is to be interpolated but free; vertices to interpolate are
 ///   given for more than one object at once
 /// @throws MeshError   nothing is left after repair, or a vertex cannot be interpolated; the
 ///   message names file, object and element
 /// @throws LimitError  not enough memory
+/// @throws Cancelled
 PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMesh mesh,
-                       const SmoothingOptions& smoothing, const MemoryBudget& budget);
+                       const SmoothingOptions& smoothing, const MemoryBudget& budget,
+                       Progress& progress);
+
+/// Whether an object interpolates anything, by its own smoothing.
+bool interpolates(const SmoothingOptions& own);
 
 /// Checks the arrays of every object (requireValidArrays), naming file and object.
 void requireValidScene(const Scene& scene);
