@@ -7,7 +7,7 @@
 namespace vox {
 
 double workOfPreparing(const PolygonMesh& mesh, bool interpolates) {
-  constexpr double kPerCorner = 400;
+  constexpr double kPerCorner = 300;
   return mesh.cornerCount() * (interpolates ? kPerCorner / kPartBeforeInterpolation : kPerCorner);
 }
 
@@ -18,7 +18,7 @@ double workOfSurface(double area, std::uint64_t corners) {
 }
 
 double workOfDensity(double area) {
-  return 12 * area;
+  return 13 * area;
 }
 
 double workOfWritingMask(double area) {
@@ -26,7 +26,7 @@ double workOfWritingMask(double area) {
 }
 
 double workOfWritingDensity(double area) {
-  return 60 * area;
+  return 32 * area;
 }
 
 double areaOf(const PolygonMesh& mesh, Index face) {

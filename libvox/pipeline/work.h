@@ -12,7 +12,7 @@ namespace vox {
 /// Of making a mesh an oriented manifold, and of moving its vertices where it is to interpolate.
 double workOfPreparing(const PolygonMesh& mesh, bool interpolates);
 /// What of it is done when interpolation begins.
-inline constexpr double kPartBeforeInterpolation = 1.0 / 3;
+inline constexpr double kPartBeforeInterpolation = 0.6;
 /// Of a surface, or a part of it.
 /// @param area  of its control mesh, in square voxels
 double workOfSurface(double area, std::uint64_t corners);
