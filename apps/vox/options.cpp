@@ -172,7 +172,11 @@ bool isStdout(const std::string& file) {
 bool isSameFile(const std::string& a, const std::string& b) {
   std::error_code error;
   if (std::filesystem::equivalent(a, b, error)) return true;
-  return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
+  const auto name = [&](const std::string& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(targetOfLinks(file), error),
+                                             error);
+  };
+  return name(a) == name(b);
 }
 
 void requireOutput(const std::string& output, const CommonOptions& common, const Scene& scene) {
