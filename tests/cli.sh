@@ -269,6 +269,114 @@ expect 0 '' info --json $'caf\xe9.obj'
 ) || fail "a file size limit: $(cat stderr)"
 [ ! -e limited.vdb ] || fail "a file size limit leaves a file"
 
+# How the surface is cut into submeshes never shows.
+for submeshes in '--localize before' '--localize during' '--localize off' '--submesh-faces 1' '--submesh-faces 7'; do
+  # shellcheck disable=SC2086
+  expect 0 'active voxels' convert "$scenes/toy_jack.toml" -o cut.vdb --dim 64 --grids density,mask --force $submeshes
+  cmp -s cut.vdb first.vdb || fail "$submeshes changes the file"
+done
+expect 2 'one of before, during, off' convert good.obj -o out.vdb --localize after
+expect 2 'submesh-faces' convert good.obj -o out.vdb --submesh-faces 0
+expect 2 'submesh-faces' convert good.obj -o out.vdb --submesh-faces 2147483649
+expect 4 'of the whole mesh needs about .*--localize during' convert "$scenes/cube.toml" -o out.vdb --dim 3000 --localize off --max-memory 1G
+
+# A report.
+expect 0 'active voxels' convert "$scenes/gallery.toml" -o gallery.vdb --dim 200 --grids density,mask --report report.json --threads 2
+"$vox" info --json gallery.vdb >info.json
+python3 - report.json info.json <<'PY' || fail "the report"
+import json, sys
+report, info = (json.load(open(name)) for name in sys.argv[1:])
+grids = {grid["name"]: grid for grid in info[0]["grids"]}
+assert report["grids"] == list(grids) == list(report["memory"]["grid_bytes"]) == ["density", "mask"]
+for grid in grids.values():
+    assert grid["active_voxels"] == report["active_voxels"]
+    assert grid["voxel_size"] == [report["voxel_size"]] * 3
+    assert grid["metadata"]["vox_active_voxels"] == str(report["active_voxels"])
+    assert grid["metadata"]["vox_levels"] == str(max(o["levels"] for o in report["objects"]))
+    assert grid["metadata"]["vox_input_hash"] == report["input_hash"]
+assert report["memory"]["grid_bytes"]["mask"] == grids["mask"]["memory_bytes"]
+assert report["memory"]["peak_resident_bytes"] > 1e7
+assert sorted(report["seconds"]) == ["grids", "prepare", "read", "surface", "write"]
+assert all(0 <= s < 600 for s in report["seconds"].values())
+assert [o["name"] for o in report["objects"]] == ["jack", "torus", "polyhedron", "cube"]
+assert [o["input_faces"] for o in report["objects"]] == [266, 128, 20, 6]
+assert sum(o["active_voxels"] for o in report["objects"]) == report["active_voxels"]
+for o in report["objects"]:
+    assert o["vertices"] == sum(o["vertices_of_level"].values()) > o["active_voxels"] > 0
+    assert max(map(int, o["vertices_of_level"])) == o["levels"] and o["submeshes"] >= 1
+    assert abs(o["vertices_per_voxel"] * o["active_voxels"] / o["vertices"] - 1) < 1e-9
+assert report["options"]["dim"] == 200 and report["options"]["localize"] == "during"
+assert report["options"]["submesh_faces"] == 256 and report["options"]["grids"] == ["density", "mask"]
+assert report["threads"] == report["options"]["threads"] == 2 and report["options"]["boundary"] is None
+assert report["warnings"] == [] and report["output"] == "gallery.vdb" and len(report["input"]) == 5
+PY
+expect 0 '' convert winding.obj -o winding.vdb --dim 8 --force --report winding.json
+grep -q 'dropped 1 duplicate face' winding.json || fail "the report leaves out a warning"
+expect 5 'report.json: exists; use --force' convert good.obj -o out.vdb --dim 8 --report report.json
+expect 2 'report.txt: .*must end in .json' convert good.obj -o out.vdb --dim 8 --report report.txt
+expect 2 'must end in .json' convert good.obj -o out.vdb --dim 8 --report -
+expect 5 'nowhere' convert good.obj -o out.vdb --dim 8 --report nowhere/report.json
+ln -s linked.vdb linked.json
+expect 2 'is the output, too' convert good.obj -o linked.vdb --dim 8 --report linked.json
+cp good.obj good.json
+ln -s good.json alias.obj
+expect 2 'is the input' convert alias.obj -o out.vdb --dim 8 --report good.json --force
+expect 0 '' convert "$scenes/gallery.toml" -o gallery.vdb --dim 100 --force --verbose
+grep -qE 'jack: 266 faces, 1 submeshes, [0-9]+ vertices \(by level .*\), [0-9]+ active voxels, .* per voxel' stderr || fail "verbose: $(cat stderr)"
+grep -q 'seconds on .* read .* prepare .* surface .* grids .* write' stderr || fail "verbose: no times"
+grep -q 'memory: peak .*, density ' stderr || fail "verbose: no memory"
+
+# The bar: on a terminal only, one line that never goes back and is erased, not with --quiet. And
+# signals: the first cancels, in whatever stage, and leaves the target as it was.
+python3 - "$vox" "$scenes" <<'PY' || fail "the progress bar"
+import os, pty, re, signal, sys
+vox, scenes = sys.argv[1:]
+
+def run(arguments, stage=None, number=None, kind="xterm"):
+    """Exit code and output on a terminal; a signal once a stage shows."""
+    child, terminal = pty.fork()
+    if child == 0:
+        os.environ["TERM"] = kind
+        os.execv(vox, [vox] + arguments)
+    output = b""
+    while True:
+        try:
+            got = os.read(terminal, 1 << 16)
+        except OSError:
+            break
+        if not got:
+            break
+        output += got
+        if stage and re.search(rb"% " + stage, output):
+            os.kill(child, number)
+            stage = None
+    os.close(terminal)
+    assert stage is None, output
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), output.decode()
+
+long = ["convert", scenes + "/cube.toml", "-o", "bar.vdb", "--dim", "2500", "--force"]
+code, output = run(long)
+assert code == 0, output
+bars = re.findall(r"\r\[(#*)\.*\] +(\d+)% (\w+)\x1b\[K", output)
+percents = [int(percent) for _, percent, _ in bars]
+assert len(bars) >= 3 and percents == sorted(percents) and percents[-1] == 100, output
+assert all(len(full) == int(percent) * 40 // 100 or 0 < int(percent) < 100 for full, percent, _ in bars), output
+assert {stage for _, _, stage in bars} <= {"prepare", "surface", "grids", "write"}, output
+assert re.search(r"100% write\x1b\[K\r\x1b\[Kvox: bar.vdb: \d+ active voxels[^\r]*\r\n$", output), output
+assert run(long + ["--quiet"]) == (0, "")
+assert "%" not in run(long, kind="dumb")[1]
+
+with open("bar.vdb", "w") as target:
+    target.write("old")
+for number in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
+    code, output = run(long, b"write", number)
+    assert code == 130 and output.endswith("\r\x1b[Kvox: interrupted\r\n"), (code, output)
+    assert open("bar.vdb").read() == "old"
+code, output = run(["subdivide", scenes + "/torus.toml", "-o", "bar.obj", "--levels", "8"], b"write", signal.SIGINT)
+assert code == 130 and not os.path.exists("bar.obj"), (code, output)
+assert not [name for name in os.listdir() if name.endswith(".part")]
+PY
+
 # A signal leaves the target as it was. (Background jobs of a script ignore SIGINT.)
 echo old >kept.vdb
 "$vox" convert "$scenes/toy_jack.toml" -o kept.vdb --force --dim 3000 2>stderr &

@@ -1,15 +1,22 @@
 #include "libvox/pipeline/convert.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/progress.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "tests/reference.h"
 #include "tests/shapes.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <random>
 #include <sstream>
+#include <string>
+#include <vector>
 
 using namespace vox;
 using Catch::Contains;
@@ -193,6 +200,110 @@ TEST_CASE("two runs, and any number of threads, give the same bytes", "[pipeline
     options.run.threads = threads;
     CHECK(bytesOf(convert(scene, options)) == first);
   }
+}
+
+TEST_CASE("any number of threads gives the same bytes where patches are split",
+          "[pipeline][parallel]") {
+  ConvertOptions options = maskAt(1200);
+  const std::string first = bytesOf(convert(sceneOf(test::cube()), options));
+  for (const int threads : {1, 2, 8}) {
+    options.run.threads = threads;
+    CHECK(bytesOf(convert(sceneOf(test::cube()), options)) == first);
+  }
+}
+
+TEST_CASE("a conversion moves through its stages from 0 to 1, and writing is the last",
+          "[pipeline]") {
+  const test::TemporaryFolder folder;
+  Scene scene = sceneOf(test::torusGrid(24, 12));
+  scene.objects.push_back({"more", test::prism(9)});
+  ConvertOptions options = maskAt(300);
+  options.grids = std::vector{GridKind::kDensity, GridKind::kMask};
+  for (const int threads : {1, 8}) {
+    std::vector<double> fractions;
+    std::vector<std::string> stages;
+    Progress progress(
+        [&](double fraction, const char* stage) {
+          fractions.push_back(fraction);
+          if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+        },
+        std::chrono::nanoseconds(0));
+    options.run.threads = threads;
+    options.run.progress = &progress;
+    const Conversion conversion = convert(scene, options);
+    CHECK(fractions.back() < 1);
+    writeGrids(folder / "out.vdb", conversion, true, &progress);
+    progress.finish();
+    CHECK(stages ==
+          std::vector<std::string>{"prepare", "surface", "prepare", "surface", "grids", "write"});
+    CHECK(fractions.front() == 0);
+    CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+    CHECK(fractions.back() == 1);
+    CHECK(fractions.size() > 10);
+  }
+}
+
+TEST_CASE("a conversion that is watched writes the same bytes", "[pipeline]") {
+  Progress progress([](double, const char*) {}, std::chrono::nanoseconds(0));
+  ConvertOptions options = maskAt(100);
+  const std::string unwatched = bytesOf(convert(sceneOf(test::cube()), options));
+  options.run.progress = &progress;
+  const Conversion conversion = convert(sceneOf(test::cube()), options);
+  std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
+  writeGrids(stream, conversion, &progress);
+  CHECK(stream.str() == unwatched);
+}
+
+TEST_CASE("a conversion can be cancelled in each of its stages, and leaves nothing", "[pipeline]") {
+  const test::TemporaryFolder folder;
+  for (const std::string when : {"prepare", "surface", "grids", "write"})
+    for (const auto localize : {Localize::kDuring, Localize::kOff}) {
+      CAPTURE(when, localizeName(localize));
+      Progress* run = nullptr;
+      std::string last;
+      Progress progress(
+          [&](double, const char* stage) {
+            last = stage;
+            if (stage == when) run->cancel();
+          },
+          std::chrono::nanoseconds(0));
+      run = &progress;
+      ConvertOptions options;
+      options.dim = 100;
+      options.surface.localize = localize;
+      options.run.progress = &progress;
+      const auto work = [&] {
+        writeGrids(folder / "out.vdb", convert(sceneOf(test::cube()), options), false, &progress);
+      };
+      CHECK_THROWS_AS(work(), Cancelled);
+      CHECK(last == when);
+      CHECK(folder.fileCount() == 0);
+    }
+}
+
+TEST_CASE("the numbers of a report add up", "[pipeline]") {
+  Scene scene = sceneOf(test::cube());
+  scene.objects.push_back({"the same", test::cube()});
+  scene.objects.push_back({"another", test::dodecahedron()});
+  ConvertOptions options = maskAt(60);
+  options.run.threads = 2;
+  const Conversion conversion = convert(scene, options);
+  const ConvertReport& report = conversion.report;
+  CHECK(report.activeVoxels == maskOf(conversion).activeVoxelCount());
+  CHECK(report.threads == 2);
+  std::uint64_t voxels = 0;
+  for (const ObjectReport& object : report.objects) {
+    voxels += object.activeVoxels;
+    const LevelCounts& levels = object.verticesOfLevel;
+    CHECK(object.vertices == std::accumulate(levels.begin(), levels.end(), std::uint64_t{0}));
+    CHECK(levels[static_cast<std::size_t>(object.levels)] > 0);
+    CHECK(object.submeshes == 1);
+  }
+  CHECK(voxels == report.activeVoxels);
+  CHECK(report.objects[0].activeVoxels > 0);
+  CHECK(report.objects[1].activeVoxels == 0);
+  CHECK(report.objects[2].activeVoxels > 0);
+  CHECK(report.objects[1].vertices == report.objects[0].vertices);
 }
 
 TEST_CASE("a conversion that cannot fit is refused before it starts", "[pipeline][error]") {

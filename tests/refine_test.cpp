@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <vector>
 
 using namespace vox;
 using Catch::Contains;
@@ -104,6 +106,31 @@ TEST_CASE("refinement keeps to its memory limit", "[pipeline][error]") {
   const std::vector<PolygonMesh> many(40, test::cube());
   CHECK_NOTHROW(refine(sceneOf({test::cube()}), 6, {}, options));
   CHECK_THROWS_AS(refine(sceneOf(many), 6, {}, options), LimitError);
+}
+
+TEST_CASE("refinement moves on with its levels, and can be cancelled", "[pipeline]") {
+  std::vector<double> fractions;
+  Progress* run = nullptr;
+  bool stop = false;
+  const auto note = [&](double fraction, const char*) {
+    fractions.push_back(fraction);
+    if (stop && fraction > 0.1) run->cancel();
+  };
+  RunOptions options;
+  Progress whole(note, std::chrono::nanoseconds(0));
+  run = options.progress = &whole;
+  refine(sceneOf({test::cube(), test::tetrahedron()}), 5, {}, options);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+  CHECK(fractions.size() > 10);
+  CHECK(fractions.back() < 1);  // the rest is for writing
+  whole.finish();
+  CHECK(fractions.back() == 1);
+  fractions.clear();
+  stop = true;
+  Progress part(note, std::chrono::nanoseconds(0));
+  run = options.progress = &part;
+  CHECK_THROWS_AS(refine(sceneOf({test::cube(), test::tetrahedron()}), 5, {}, options), Cancelled);
+  CHECK(fractions.back() < 0.3);
 }
 
 TEST_CASE("impossible requests for refinement are refused", "[pipeline][error]") {

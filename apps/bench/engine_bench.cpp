@@ -6,6 +6,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/read_mesh.h"
 #include "libvox/pipeline/refine.h"
@@ -28,7 +29,8 @@ using Clock = std::chrono::steady_clock;
 SubdivisionLevel preparedAt(const PolygonMesh& mesh, int dim) {
   Scene scene;
   scene.objects.push_back({"mesh", mesh});
-  SubdivisionLevel base = prepare(scene, scene.objects[0], {}, MemoryBudget(0)).base;
+  Progress unwatched;
+  SubdivisionLevel base = prepare(scene, scene.objects[0], {}, MemoryBudget(0), unwatched).base;
   const GridTransform transform = transformForDim(usedBox(mesh), dim);
   for (Vec3d& point : base.mesh.points) point = transform.toIndex(point);
   return base;
@@ -41,6 +43,8 @@ void setRate(benchmark::State& state, const char* name, std::uint64_t count) {
 
 void engine(benchmark::State& state, const PolygonMesh& mesh) {
   const SubdivisionLevel base = preparedAt(mesh, static_cast<int>(state.range(0)));
+  const MemoryBudget budget(0);
+  Progress unwatched;
   std::uint64_t voxels = 0;
   std::uint64_t vertices = 0;
   onThreads(static_cast<int>(state.range(1)), [&] {
@@ -48,7 +52,7 @@ void engine(benchmark::State& state, const PolygonMesh& mesh) {
       const auto start = Clock::now();
       SurfaceGrid grid;
       SurfaceReport report;
-      markSurface(base, {}, grid, report);
+      markSurface(base, {}, budget, unwatched, grid, report);
       const auto tree = grid.takeTree();
       state.SetIterationTime(std::chrono::duration<double>(Clock::now() - start).count());
       voxels = tree->activeVoxelCount();

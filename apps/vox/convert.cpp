@@ -3,8 +3,13 @@
 #include "libvox/pipeline/convert.h"
 
 #include "apps/vox/command.h"
+#include "apps/vox/convert_report.h"
+#include "apps/vox/interrupt.h"
 #include "apps/vox/options.h"
+#include "apps/vox/progress_bar.h"
 #include "libvox/core/error.h"
+#include "libvox/core/stopwatch.h"
+#include "libvox/io/atomic_file.h"
 #include "libvox/io/input_file.h"
 
 #include <iostream>
@@ -22,66 +27,91 @@ struct Options {
   SmoothingArguments smoothing;
   std::optional<double> weldTolerance;
   std::optional<bool> strict;
+  SubmeshArguments submeshes;
   std::string grids;
+  std::string report;
   CommonOptions common;
 };
 
-void sayInterpolation(const CommonOptions& common, const ObjectReport& object) {
-  const InterpolationReport& done = object.interpolation;
-  if (done.boundaryVertices + done.lift.vertices == 0) return;
-  std::ostringstream text;
-  text << object.name << ": interpolates " << done.boundaryVertices << " boundary and "
-       << done.lift.vertices << " interior vertices, " << done.lift.iterations
-       << " iterations, off by at most " << done.lift.residual << " world units";
-  say(common, text.str());
-}
-
-void printReport(const Options& options, const ConvertReport& report) {
+void sayReport(const Options& options, const FinishedRun& run) {
+  const ConvertReport& report = run.conversion.report;
   for (const std::string& warning : report.warnings) say(options.common, "warning: " + warning);
   std::ostringstream line;
   line << options.output << ": " << report.activeVoxels << " active voxels of size "
        << report.voxelSize;
   say(options.common, line.str());
   if (!options.common.verbose) return;
-  for (const ObjectReport& object : report.objects) {
-    std::ostringstream text;
-    text << object.name << ": " << object.inputFaces << " faces, " << object.levels << " levels, "
-         << object.submeshes << " submeshes, " << object.vertices << " vertices";
-    say(options.common, text.str());
-    sayInterpolation(options.common, object);
-  }
-  std::ostringstream times;
-  times << "prepare " << report.prepareSeconds << " s, surface " << report.surfaceSeconds << " s";
-  say(options.common, times.str());
+  for (const std::string& more : reportLines(run)) say(options.common, more);
 }
 
-void write(const Options& options, const Conversion& conversion) {
+void write(const Options& options, const Conversion& conversion, Progress& progress) {
   if (!isStdout(options.output)) {
-    writeGrids(options.output, conversion, options.common.force);
+    writeGrids(options.output, conversion, options.common.force, &progress);
     return;
   }
   std::stringstream bytes(std::ios::in | std::ios::out | std::ios::binary);
-  writeGrids(bytes, conversion);
+  writeGrids(bytes, conversion, &progress);
   std::cout << bytes.view();
 }
 
-int run(const Options& options) {
+void writeReport(const Options& options, const FinishedRun& run) {
+  AtomicFile file(options.report, options.common.force);
+  file.stream() << reportJson(run);
+  file.commit();
+}
+
+/// Checks, before the work starts, what is to be written.
+void requireOutputs(const Options& options, const Scene& scene) {
+  requireOutput(options.output, options.common, scene);
+  if (options.report.empty()) return;
+  requireOutput(options.report, options.common, scene);
+  if (isSameFile(options.report, options.output))
+    throw UsageError(options.report + ": is the output, too; choose another name");
+}
+
+ConvertOptions parse(const Options& options) {
   if (!isStdout(options.output) && lowerExtension(options.output) != ".vdb")
     throw UsageError(options.output + ": the output of vox convert must end in .vdb");
-  ConvertOptions convertOptions;
-  convertOptions.dim = options.resolution.dim;
-  convertOptions.voxelSize = options.resolution.voxelSize;
-  convertOptions.smoothing = parseSmoothing(options.smoothing);
-  convertOptions.weldTolerance = options.weldTolerance;
-  convertOptions.strict = options.strict;
-  convertOptions.run = options.common.run;
-  if (!options.grids.empty()) convertOptions.grids = parseGrids(options.grids);
+  if (!options.report.empty() && lowerExtension(options.report) != ".json")
+    throw UsageError(options.report + ": the file of --report must end in .json");
+  ConvertOptions parsed;
+  parsed.dim = options.resolution.dim;
+  parsed.voxelSize = options.resolution.voxelSize;
+  parsed.smoothing = parseSmoothing(options.smoothing);
+  parsed.weldTolerance = options.weldTolerance;
+  parsed.strict = options.strict;
+  parsed.surface = parseSubmeshes(options.submeshes);
+  parsed.run = options.common.run;
+  if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
+  return parsed;
+}
 
+int run(const Options& options) {
+  ConvertOptions convertOptions = parse(options);
+  ProgressBar bar(!options.common.quiet);
+  const Stopwatch reading;
   const Scene scene = readScene(options.input);
-  requireOutput(options.output, options.common, scene);
-  const Conversion conversion = convert(scene, convertOptions);
-  write(options, conversion);
-  printReport(options, conversion.report);
+  const double readSeconds = reading.seconds();
+  requireOutputs(options, scene);
+
+  Progress progress(bar.callback());
+  convertOptions.run.progress = &progress;
+  Conversion conversion;
+  double writeSeconds = 0;
+  {
+    const CancelOnSignal cancelOnSignal(progress);
+    conversion = convert(scene, convertOptions);
+    const Stopwatch writing;
+    write(options, conversion, progress);
+    writeSeconds = writing.seconds();
+    progress.finish();
+  }
+  bar.erase();
+
+  const FinishedRun finished{scene,          convertOptions, conversion,
+                             options.output, readSeconds,    writeSeconds};
+  if (!options.report.empty()) writeReport(options, finished);
+  sayReport(options, finished);
   return 0;
 }
 
@@ -106,6 +136,12 @@ Action addConvert(CLI::App& app) {
           "--grids", options->grids,
           "Grids to write, with commas: " + allGridNames() + " (default: the scene's, or density)")
       ->type_name("LIST")
+      ->group("Output");
+  addSubmeshOptions(*command, options->submeshes);
+  command
+      ->add_option("--report", options->report,
+                   "Write times, counts and memory of each stage and object to a file, as JSON")
+      ->type_name("FILE.json")
       ->group("Output");
   addCommonOptions(*command, options->common);
   return [options] { return run(*options); };

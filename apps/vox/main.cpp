@@ -1,19 +1,17 @@
 // vox: from irregular polygon meshes to smooth voxel models.
 
 #include "apps/vox/command.h"
+#include "apps/vox/interrupt.h"
 #include "apps/vox/suggest.h"
 #include "libvox/core/error.h"
+#include "libvox/core/progress.h"
 #include "libvox/core/version.h"
-#include "libvox/io/atomic_file.h"
 
-#include <csignal>
-#include <cstdio>
 #include <iostream>
 #include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace vox::app {
@@ -23,22 +21,6 @@ constexpr int kUsage = 2;
 constexpr int kLimit = 4;
 constexpr int kIo = 5;
 constexpr int kInternal = 70;  // a bug of ours: EX_SOFTWARE
-constexpr int kInterrupted = 130;
-
-/// Leaves no partial file behind, then ends the process.
-extern "C" void onInterrupt(int) {
-  removePartialFiles();
-  constexpr char kMessage[] = "\nvox: interrupted\n";
-  if (::write(STDERR_FILENO, kMessage, sizeof kMessage - 1) < 0) _exit(kInterrupted);
-  _exit(kInterrupted);
-}
-
-/// A signal that the caller chose to ignore (nohup) stays ignored.
-void handleSignals() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP})
-    if (std::signal(number, onInterrupt) == SIG_IGN) std::signal(number, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of the write
-}
 
 int fail(const std::string& message, int code) {
   std::cerr << "vox: error: " << onOneLine(message) << '\n';
@@ -132,6 +114,9 @@ int main(int argc, char** argv) {
     const int code = run(argc, argv);
     if (!std::cout.flush()) return fail("standard output cannot be written", kIo);
     return code;
+  } catch (const vox::Cancelled& cancelled) {
+    std::cerr << "vox: " << cancelled.what() << '\n';
+    return cancelled.exitCode();
   } catch (const vox::Error& error) {
     return fail(error.what(), error.exitCode());
   } catch (const std::bad_alloc&) {

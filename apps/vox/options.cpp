@@ -141,6 +141,36 @@ void addStrictOption(CLI::App& command, std::optional<bool>& strict) {
       ->group("Repair");
 }
 
+void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments) {
+  command
+      .add_option(
+          "--localize", arguments.localize,
+          "Cut the mesh into submeshes, a task each (before); split their large patches into "
+          "further tasks, too (during, the default); or subdivide the whole mesh level by "
+          "level, slow and large, for comparison (off)")
+      ->type_name("before|during|off")
+      ->group("Submeshes");
+  constexpr Index kMostFaces = Index{1} << 31U;
+  command
+      .add_option("--submesh-faces", arguments.submeshFaces,
+                  "Faces of a submesh (default: " + std::to_string(kDefaultSubmeshFaces) + ")")
+      ->check(CLI::Range(Index{1}, kMostFaces))
+      ->type_name("N")
+      ->group("Submeshes");
+}
+
+SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments) {
+  SurfaceOptions surface;
+  surface.submeshFaces = arguments.submeshFaces;
+  if (arguments.localize.empty()) return surface;
+  const auto localize = localizeNamed(arguments.localize);
+  if (!localize)
+    throw UsageError("--localize must be one of " + allLocalizeNames() + ", not '" +
+                     arguments.localize + "'");
+  surface.localize = *localize;
+  return surface;
+}
+
 std::vector<GridKind> parseGrids(const std::string& names) {
   std::vector<GridKind> grids;
   std::istringstream list(names);
@@ -156,6 +186,16 @@ std::vector<GridKind> parseGrids(const std::string& names) {
 
 bool isStdout(const std::string& file) {
   return file == "-";
+}
+
+bool isSameFile(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  const auto name = [&](const std::string& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(targetOfLinks(file), error),
+                                             error);
+  };
+  return name(a) == name(b);
 }
 
 void requireOutput(const std::string& output, const CommonOptions& common, const Scene& scene) {

@@ -5,6 +5,7 @@
 #include "libvox/mesh/smoothing.h"
 #include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
+#include "libvox/pipeline/surface.h"
 
 #include <CLI/CLI.hpp>
 
@@ -48,12 +49,24 @@ void addWeldOption(CLI::App& command, std::optional<double>& tolerance);
 /// --strict, as said; --strict=false overrides a scene.
 void addStrictOption(CLI::App& command, std::optional<bool>& strict);
 
+/// --localize and --submesh-faces, as typed.
+struct SubmeshArguments {
+  std::string localize;
+  Index submeshFaces = kDefaultSubmeshFaces;
+};
+void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments);
+/// @throws UsageError
+SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments);
+
 /// "density,mask" as grids.
 /// @throws UsageError  an unknown name
 std::vector<GridKind> parseGrids(const std::string& names);
 
 /// "-": data goes to standard output.
 bool isStdout(const std::string& file);
+
+/// Whether two names stand for one file, which need not exist.
+bool isSameFile(const std::string& a, const std::string& b);
 
 /// Checks, before the work starts, that the output can be written and is none of the inputs.
 /// @throws IoError, UsageError

@@ -1,8 +1,11 @@
 // vox subdivide: the refined polygon mesh itself.
 
 #include "apps/vox/command.h"
+#include "apps/vox/interrupt.h"
 #include "apps/vox/options.h"
+#include "apps/vox/progress_bar.h"
 #include "libvox/io/atomic_file.h"
+#include "libvox/io/watched_stream.h"
 #include "libvox/io/write_mesh.h"
 #include "libvox/pipeline/refine.h"
 
@@ -23,13 +26,24 @@ struct Options {
   CommonOptions common;
 };
 
-void write(const Options& options, const PolygonMesh& mesh) {
+/// Bytes of a file, roughly: OBJ is the longest.
+std::uint64_t expectedBytes(const PolygonMesh& mesh) {
+  constexpr std::uint64_t kPerPoint = 55;
+  constexpr std::uint64_t kPerCorner = 8;
+  return kPerPoint * mesh.pointCount() + kPerCorner * mesh.cornerCount();
+}
+
+void write(const Options& options, const PolygonMesh& mesh, Progress& progress) {
+  progress.beginLast("write");
   if (isStdout(options.output)) {
-    writeMesh(std::cout, mesh, MeshFormat::kObj);
+    WatchedStream stream(*std::cout.rdbuf(), progress, expectedBytes(mesh));
+    writeMesh(stream, mesh, MeshFormat::kObj);
     return;
   }
   AtomicFile output(options.output, options.common.force);
-  writeMesh(output.stream(), mesh, meshFormatFor(options.output));
+  WatchedStream stream(*output.stream().rdbuf(), progress, expectedBytes(mesh));
+  writeMesh(stream, mesh, meshFormatFor(options.output));
+  progress.check();
   output.commit();
 }
 
@@ -37,11 +51,21 @@ int run(const Options& options) {
   if (!isStdout(options.output)) meshFormatFor(options.output);
   const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
                                           options.strict};
+  ProgressBar bar(!options.common.quiet);
   const Scene scene = readScene(options.input);
   requireOutput(options.output, options.common, scene);
-  const Refinement refined = refine(scene, options.levels, preparation, options.common.run);
+  Progress progress(bar.callback());
+  RunOptions runOptions = options.common.run;
+  runOptions.progress = &progress;
+  Refinement refined;
+  {
+    const CancelOnSignal cancelOnSignal(progress);
+    refined = refine(scene, options.levels, preparation, runOptions);
+    write(options, refined.mesh, progress);
+    progress.finish();
+  }
+  bar.erase();
   const PolygonMesh& mesh = refined.mesh;
-  write(options, mesh);
   for (const std::string& warning : refined.warnings) say(options.common, "warning: " + warning);
   say(options.common, options.output + ": " + std::to_string(mesh.pointCount()) + " vertices, " +
                           std::to_string(mesh.faceCount()) + " faces");

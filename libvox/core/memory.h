@@ -9,6 +9,9 @@ namespace vox {
 /// of its control group (version 2) and address space.
 std::uint64_t availableMemory();
 
+/// The most memory this process has had in use so far: its peak resident set, in bytes.
+std::uint64_t peakMemory();
+
 /// "1.5 GiB".
 std::string formatBytes(std::uint64_t bytes);
 

@@ -36,6 +36,8 @@ class SurfaceGrid {
     tbb::spin_mutex lock;
     PageNode* node = nullptr;
     std::uint32_t newLeaves = 0;  // since memory was last accounted for
+    bool changed = false;         // since voxels were last counted
+    std::uint64_t voxels = 0;     // then
   };
 
   /// The page of a voxel; made when it is not there. Valid as long as the grid. Thread-safe.
@@ -55,6 +57,10 @@ class SurfaceGrid {
 
   /// Bytes of the nodes so far.
   std::uint64_t memoryBytes() const { return memoryBytes_; }
+
+  /// Number of active voxels. Costs a look at the pages that have changed since the last time. Not
+  /// thread-safe.
+  std::uint64_t countVoxels();
 
   /// Hangs the pages into a tree and leaves this grid empty. Not thread-safe.
   openvdb::MaskTree::Ptr takeTree();

@@ -53,19 +53,6 @@ fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// The file a chain of symbolic links stands for, so that the links survive the rename.
-fs::path resolved(fs::path target) {
-  constexpr int kMostLinks = 40;
-  std::error_code error;
-  for (int links = 0; fs::is_symlink(target, error); ++links) {
-    if (links == kMostLinks) throw IoError(target.string() + ": too many symbolic links");
-    const fs::path next = fs::read_symlink(target, error);
-    if (error) throw IoError(target.string() + ": cannot be followed: " + error.message());
-    target = next.is_absolute() ? next : folderOf(target) / next;
-  }
-  return target;
-}
-
 /// Makes a new file of a name nobody can foresee.
 fs::path createPartial(const fs::path& folder) {
   constexpr int kTries = 100;
@@ -105,10 +92,22 @@ void keepPermissions(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
+fs::path targetOfLinks(fs::path target) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(target, error); ++links) {
+    if (links == kMostLinks) throw IoError(target.string() + ": too many symbolic links");
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) throw IoError(target.string() + ": cannot be followed: " + error.message());
+    target = next.is_absolute() ? next : folderOf(target) / next;
+  }
+  return target;
+}
+
 void requireWritable(const fs::path& target, bool overwrite) {
   if (target.empty()) throw IoError("the output file has no name");
   std::error_code error;
-  const fs::path real = resolved(target);
+  const fs::path real = targetOfLinks(target);
   const fs::path folder = folderOf(real);
   if (!fs::is_directory(folder, error))
     throw IoError(target.string() + ": the folder " + folder.string() + " does not exist");
@@ -124,7 +123,7 @@ void requireWritable(const fs::path& target, bool overwrite) {
 
 AtomicFile::AtomicFile(const fs::path& target, bool overwrite) {
   requireWritable(target, overwrite);
-  target_ = resolved(target);
+  target_ = targetOfLinks(target);
   partial_ = createPartial(folderOf(target_));
   registerPartial(partial_);
   stream_.open(partial_, std::ios::in | std::ios::out | std::ios::binary);

@@ -10,6 +10,11 @@ namespace vox {
 /// @throws IoError  says which of these fails
 void requireWritable(const std::filesystem::path& target, bool overwrite);
 
+/// The file that a chain of symbolic links stands for, whether it exists or not; any other path
+/// itself.
+/// @throws IoError  the links cannot be followed
+std::filesystem::path targetOfLinks(std::filesystem::path target);
+
 /// A file that appears under its name only when complete. Bytes go to a new file ".vox-RANDOM.part"
 /// in the folder of the target (of what it points to, for a symbolic link); commit() syncs it,
 /// gives it the permissions of the file it replaces and renames it. Without commit() the destructor

@@ -5,21 +5,25 @@
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/core/stopwatch.h"
 #include "libvox/core/version.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"
+#include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/surface.h"
+#include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
 
-#include <Eigen/Geometry>
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <sstream>
 #include <utility>
 
@@ -30,15 +34,13 @@ namespace {
 class StageTimer {
  public:
   explicit StageTimer(double& total) : total_(total) {}
-  ~StageTimer() {
-    total_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  ~StageTimer() { total_ += watch_.seconds(); }
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;
 
  private:
   double& total_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
 };
 
 // Resolution
@@ -98,19 +100,6 @@ std::uint64_t bytesOfDensity(const openvdb::MaskTree& mask) {
 
 constexpr const char* kScattered =
     "the model is scattered over much space: use larger voxels, or raise --max-memory";
-
-/// Area of the faces as fans, in square voxels.
-double areaOf(const PolygonMesh& mesh) {
-  double twice = 0;
-  for (Index f = 0; f < mesh.faceCount(); ++f) {
-    const auto face = mesh.face(f);
-    for (std::size_t i = 1; i + 1 < face.size(); ++i)
-      twice += (mesh.points[face[i]] - mesh.points[face[0]])
-                   .cross(Vec3d(mesh.points[face[i + 1]] - mesh.points[face[0]]))
-                   .norm();
-  }
-  return twice / 2;
-}
 
 /// Bytes of mask nodes for a surface: 1.5 leaves per 64 square voxels, averaged over directions,
 /// and 1.5 inner nodes per 16384.
@@ -175,6 +164,58 @@ openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
   return metadata;
 }
 
+// Progress
+
+/// Area of each object's control mesh, in square voxels: what the work of the later stages follows.
+/// Zeros when nobody watches.
+std::vector<double> areasOf(const Scene& scene, const GridTransform& transform,
+                            const Progress& progress) {
+  std::vector<double> areas(scene.objects.size(), 0.0);
+  for (std::size_t i = 0; progress.watched() && i < areas.size(); ++i)
+    areas[i] = areaOf(scene.objects[i].mesh) / transform.voxelSize / transform.voxelSize;
+  return areas;
+}
+
+double workOfPreparing(const SceneObject& object, const ConvertOptions& options) {
+  return workOfPreparing(object.mesh,
+                         interpolates(overriding(options.smoothing, object.smoothing)));
+}
+
+double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds) {
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  double work = 0;
+  for (const GridKind kind : kinds)
+    if (kind == GridKind::kDensity) work += workOfDensity(area);
+  return work;
+}
+
+/// Announces all stages, writing included.
+void plan(const Scene& scene, const ConvertOptions& options, std::span<const double> areas,
+          std::span<const GridKind> kinds, Progress& progress) {
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
+    progress.plan(workOfPreparing(object, options) +
+                  workOfSurface(areas[i], object.mesh.cornerCount()));
+    for (const GridKind kind : kinds)
+      progress.plan(kind == GridKind::kDensity ? workOfWritingDensity(areas[i])
+                                               : workOfWritingMask(areas[i]));
+  }
+  progress.plan(workOfGrids(areas, kinds));
+}
+
+/// Bytes of a file of these grids, as once measured.
+std::uint64_t expectedBytes(const Conversion& conversion) {
+  constexpr std::uint64_t kPerLeaf = 145;
+  constexpr std::uint64_t kPerLeafOfValues = 195;
+  std::uint64_t bytes = 0;
+  for (const auto& grid : conversion.grids)
+    bytes += grid->constBaseTree().leafCount() *
+             (grid->isType<openvdb::MaskGrid>() ? kPerLeaf : kPerLeafOfValues);
+  return bytes;
+}
+
+// Conversion
+
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
                                 MemoryBudget& budget) {
   if (kind == GridKind::kMask) return mask;
@@ -194,6 +235,7 @@ void notePreparation(const PreparedObject& prepared, const GridTransform& transf
 /// What became of a surface, for the report.
 void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
   part.submeshes = surface.submeshes;
+  part.verticesOfLevel = surface.vertices;
   for (std::size_t level = 0; level < surface.vertices.size(); ++level) {
     if (surface.vertices[level] == 0) continue;
     part.levels = static_cast<int>(level);
@@ -203,51 +245,62 @@ void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
 
 openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& options,
                                       const GridTransform& transform, double longestSide,
-                                      MemoryBudget& budget, ConvertReport& report) {
+                                      std::span<const double> areas, MemoryBudget& budget,
+                                      Progress& progress, ConvertReport& report) {
   SurfaceGrid grid(budget.left());
   for (const SceneObject& object : scene.objects) {
+    const double area = areas[report.objects.size()];
     ObjectReport& part = report.objects.emplace_back();
     part.name = object.name;
     part.inputFaces = object.mesh.faceCount();
     PreparedObject prepared;
     {
+      progress.begin("prepare", workOfPreparing(object, options));
       const StageTimer timer(report.prepareSeconds);
-      prepared = prepare(scene, object, options, budget);
+      prepared = prepare(scene, object, options, budget, progress);
       notePreparation(prepared, transform, part, report);
       moveToIndexSpace(prepared.base.mesh, transform);
       requireMaskFits(prepared.base.mesh, transform, longestSide, budget);
     }
+    progress.begin("surface", workOfSurface(area, object.mesh.cornerCount()));
     const StageTimer timer(report.surfaceSeconds);
     SurfaceReport surface;
-    markSurface(prepared.base, options.surface, grid, surface);
+    markSurface(prepared.base, options.surface, budget, progress, grid, surface);
     noteSurface(surface, part);
+    part.activeVoxels = grid.countVoxels() - report.activeVoxels;
+    report.activeVoxels += part.activeVoxels;
   }
   budget.take(grid.memoryBytes(), "the grid", kScattered);
   auto mask = openvdb::MaskGrid::create(grid.takeTree());
   mask->setName(gridName(GridKind::kMask));
   mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
-  report.activeVoxels = mask->activeVoxelCount();
   return mask;
 }
 
-Conversion convertScene(const Scene& scene, const ConvertOptions& options) {
+Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progress& progress) {
   openvdb::initialize();
   Conversion result;
+  result.report.threads = tbb::this_task_arena::max_concurrency();
   MemoryBudget budget(options.run.maxMemory);
   for (const SceneObject& object : scene.objects)
     budget.take(bytesOf(object.mesh), "the input", "raise --max-memory");
 
   const Box box = boxOf(scene);
   const GridTransform transform = chooseTransform(box, scene, options);
-  result.report.voxelSize = transform.voxelSize;
-  const openvdb::MaskGrid::Ptr mask =
-      convertObjects(scene, options, transform, box.longestSide(), budget, result.report);
-
-  const openvdb::MetaMap metadata = describe(scene, options, transform, result.report);
   const std::vector<GridKind> kinds =
       options.grids.value_or(scene.grids.value_or(std::vector{GridKind::kDensity}));
+  const std::vector<double> areas = areasOf(scene, transform, progress);
+  plan(scene, options, areas, kinds, progress);
+  result.report.voxelSize = transform.voxelSize;
+  const openvdb::MaskGrid::Ptr mask = convertObjects(scene, options, transform, box.longestSide(),
+                                                     areas, budget, progress, result.report);
+
+  progress.begin("grids", workOfGrids(areas, kinds));
+  const StageTimer timer(result.report.gridsSeconds);
+  const openvdb::MetaMap metadata = describe(scene, options, transform, result.report);
   for (const GridKind kind : kinds) {
     openvdb::GridBase::Ptr grid = makeGrid(kind, mask, budget);
+    progress.check();
     for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
       grid->insertMeta(entry->first, *entry->second);
     result.grids.push_back(std::move(grid));
@@ -259,18 +312,25 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options) {
 
 Conversion convert(const Scene& scene, const ConvertOptions& options) {
   requireValidScene(scene);
-  return onThreads(options.run.threads, [&] { return convertScene(scene, options); });
+  Progress unwatched;
+  Progress& progress = options.run.progress != nullptr ? *options.run.progress : unwatched;
+  return onThreads(options.run.threads, [&] { return convertScene(scene, options, progress); });
 }
 
-void writeGrids(std::iostream& stream, const Conversion& conversion) {
+void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress) {
   openvdb::MetaMap metadata;
   metadata.insertMeta("creator", openvdb::StringMetadata(std::string("vox ") + version()));
-  writeVdb(stream, conversion.grids, metadata);
+  if (progress == nullptr) return writeVdb(stream, conversion.grids, metadata);
+  progress->beginLast("write");
+  WatchedStream watched(*stream.rdbuf(), *progress, expectedBytes(conversion));
+  writeVdb(watched, conversion.grids, metadata);
 }
 
-void writeGrids(const std::filesystem::path& file, const Conversion& conversion, bool overwrite) {
+void writeGrids(const std::filesystem::path& file, const Conversion& conversion, bool overwrite,
+                Progress* progress) {
   AtomicFile output(file, overwrite);
-  writeGrids(output.stream(), conversion);
+  writeGrids(output.stream(), conversion, progress);
+  if (progress != nullptr) progress->check();
   output.commit();
 }
 

@@ -6,6 +6,7 @@
 #include "libvox/pipeline/run_options.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/prepare/interpolate.h"
+#include "libvox/voxelize/vertex_sink.h"
 
 #include <openvdb/version.h>
 
@@ -45,6 +46,8 @@ struct ObjectReport {
   Index submeshes = 0;
   int levels = 0;                     ///< Doo-Sabin steps down to the deepest vertex
   std::uint64_t vertices = 0;         ///< vertices rounded to voxels, each at its own level
+  LevelCounts verticesOfLevel{};      ///< how many of them at each level
+  std::uint64_t activeVoxels = 0;     ///< that no object before it has
   InterpolationReport interpolation;  ///< its residual in world units
 };
 
@@ -53,8 +56,10 @@ struct ConvertReport {
   std::vector<ObjectReport> objects;
   std::uint64_t activeVoxels = 0;
   std::vector<std::string> warnings;  ///< one line each: what the user may not expect
+  int threads = 0;                    ///< that there were to use
   double prepareSeconds = 0;
   double surfaceSeconds = 0;  ///< subdivision and voxelization
+  double gridsSeconds = 0;    ///< from voxels to the grids asked for
 };
 
 struct Conversion {
@@ -63,21 +68,26 @@ struct Conversion {
 };
 
 /// Smooths every object of a scene by Doo-Sabin subdivision and converts it into shared OpenVDB
-/// grids. Each object is subdivided as a whole until its faces meet the vertex-conversion
-/// criterion, so the active voxels 6-separate the two sides of each surface. Grids carry the
-/// metadata of DESIGN section 9. The result does not depend on the number of threads.
+/// grids. Each is subdivided until its faces meet the vertex-conversion criterion, so the active
+/// voxels 6-separate the two sides of each surface. Grids carry the metadata of DESIGN section 9.
+/// The result does not depend on the number of threads, nor on how the surface is cut into
+/// submeshes. The progress keeps a share for writing the grids.
 ///
 /// @throws UsageError  dim, voxel size, number of threads, smoothing or weld tolerance is nonsense
 /// @throws InputError  the input has no extent and no voxel size is given
 /// @throws MeshError   as prepare (refine.h)
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid
+/// @throws Cancelled   options.run.progress says so
 Conversion convert(const Scene& scene, const ConvertOptions& options);
 
 /// Writes grids to a new file: complete or not at all, equal input giving equal bytes.
+/// @param progress  that of the conversion, of which this is the last stage; or none
 /// @throws IoError  cannot be written, or exists and `overwrite` is false
-void writeGrids(const std::filesystem::path& file, const Conversion& conversion, bool overwrite);
+/// @throws Cancelled
+void writeGrids(const std::filesystem::path& file, const Conversion& conversion, bool overwrite,
+                Progress* progress = nullptr);
 
 /// The same to a stream that must be readable, writable, seekable and empty.
-void writeGrids(std::iostream& stream, const Conversion& conversion);
+void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress = nullptr);
 
 }  // namespace vox

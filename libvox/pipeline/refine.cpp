@@ -5,8 +5,10 @@
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
 #include "libvox/mesh/validate.h"
+#include "libvox/pipeline/work.h"
 #include "libvox/prepare/sound.h"
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <utility>
@@ -35,11 +37,6 @@ struct VertexOrigin {
   std::vector<Index> weldedTo;  ///< per vertex of the input: the one it was welded to, or itself
   std::vector<Index> of;        ///< per prepared vertex: a vertex of the input
 };
-
-bool interpolates(const SmoothingOptions& smoothing) {
-  return smoothing.interpolate.value_or(Interpolate::kNothing) != Interpolate::kNothing ||
-         (smoothing.interpolatedVertices && !smoothing.interpolatedVertices->empty());
-}
 
 void requireConsistent(const Scene& scene, const SceneObject& object,
                        const SmoothingOptions& smoothing, const SmoothingOptions& own) {
@@ -106,11 +103,19 @@ std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
   return mesh.cornerCount() * kPerCorner + mesh.pointCount() * kPerVertex;
 }
 
-SubdivisionLevel subdivided(SubdivisionLevel level, int levels, const MemoryBudget& budget) {
+/// Every step makes four times as much as the one before.
+double partOfStep(int k, int levels) {
+  return 3 * std::ldexp(1.0, 2 * (k - 1)) / (std::ldexp(1.0, 2 * levels) - 1);
+}
+
+SubdivisionLevel subdivided(SubdivisionLevel level, int levels, const MemoryBudget& budget,
+                            Progress& progress) {
   for (int k = 1; k <= levels; ++k) {
+    progress.check();
     budget.require(bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level),
                    "level " + std::to_string(k), kAdvice);
     level = nextLevel(level, imageVertices(level));
+    progress.done(partOfStep(k, levels));
   }
   return level;
 }
@@ -131,14 +136,37 @@ void append(PolygonMesh& all, PolygonMesh part) {
     all.faceOffsets.push_back(firstCorner + part.faceOffsets[f + 1]);
 }
 
+/// Work of the stages of an object.
+struct RefineWork {
+  double prepare;
+  double subdivide;
+  double write;
+  RefineWork(const SceneObject& object, int levels, const SmoothingOptions& smoothing)
+      : prepare(
+            workOfPreparing(object.mesh, interpolates(overriding(smoothing, object.smoothing)))),
+        subdivide(kPerCorner * object.mesh.cornerCount() * std::ldexp(1.0, 2 * levels)),
+        write(kWritingPerCorner * object.mesh.cornerCount() * std::ldexp(1.0, 2 * levels)) {}
+
+ private:
+  static constexpr double kPerCorner = 50;
+  static constexpr double kWritingPerCorner = 200;
+};
+
 Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& preparation,
-                     const RunOptions& run) {
+                     const RunOptions& run, Progress& progress) {
+  for (const SceneObject& object : scene.objects) {
+    const RefineWork work(object, levels, preparation.smoothing);
+    progress.plan(work.prepare + work.subdivide + work.write);
+  }
   MemoryBudget budget(run.maxMemory);
   Refinement all;
   for (const SceneObject& object : scene.objects) {
     budget.take(bytesOf(object.mesh), "the input", kAdvice);
-    PreparedObject prepared = prepare(scene, object, preparation, budget);
-    PolygonMesh part = subdivided(std::move(prepared.base), levels, budget).mesh;
+    const RefineWork work(object, levels, preparation.smoothing);
+    progress.begin("prepare", work.prepare);
+    PreparedObject prepared = prepare(scene, object, preparation, budget, progress);
+    progress.begin("subdivide", work.subdivide);
+    PolygonMesh part = subdivided(std::move(prepared.base), levels, budget, progress).mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
     budget.take(2 * bytesOf(part), "the refined mesh", kAdvice);
@@ -148,6 +176,11 @@ Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& p
 }
 
 }  // namespace
+
+bool interpolates(const SmoothingOptions& own) {
+  return own.interpolate.value_or(Interpolate::kNothing) != Interpolate::kNothing ||
+         (own.interpolatedVertices && !own.interpolatedVertices->empty());
+}
 
 std::uint64_t bytesOf(const PolygonMesh& mesh) {
   return mesh.points.size() * sizeof(Vec3d) +
@@ -175,7 +208,8 @@ void requireValidScene(const Scene& scene) {
 }
 
 PreparedObject prepare(const Scene& scene, const SceneObject& object,
-                       const PreparationOptions& options, const MemoryBudget& budget) {
+                       const PreparationOptions& options, const MemoryBudget& budget,
+                       Progress& progress) {
   const SmoothingOptions own = overriding(options.smoothing, object.smoothing);
   requireConsistent(scene, object, options.smoothing, own);
   constexpr std::uint64_t kPerCorner = 4 * sizeof(EdgeCorner) + 12 * sizeof(Index);
@@ -185,9 +219,12 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
   SubdivisionLevel& base = prepared.base;
   namingObject(scene, object, [&] {
     VertexOrigin origin;
-    base = baseLevel(soundMeshOf(scene, object, options, origin, prepared.warnings),
-                     own.boundary.value_or(BoundaryRule::kExtend));
+    PolygonMesh mesh = soundMeshOf(scene, object, options, origin, prepared.warnings);
+    progress.check();
+    base = baseLevel(std::move(mesh), own.boundary.value_or(BoundaryRule::kExtend));
+    progress.check();
     if (!interpolates(own)) return;
+    progress.done(kPartBeforeInterpolation);
     budget.require(bytesOf(base) + bytesOfInterpolation(base.mesh), "interpolation",
                    "raise --max-memory");
     base.mesh = interpolate(
@@ -202,7 +239,10 @@ Refinement refine(const Scene& scene, int levels, const PreparationOptions& prep
                   const RunOptions& run) {
   if (levels < 0) throw UsageError("--levels must be 0 or more, not " + std::to_string(levels));
   requireValidScene(scene);
-  return onThreads(run.threads, [&] { return refineAll(scene, levels, preparation, run); });
+  Progress unwatched;
+  Progress& progress = run.progress != nullptr ? *run.progress : unwatched;
+  return onThreads(run.threads,
+                   [&] { return refineAll(scene, levels, preparation, run, progress); });
 }
 
 }  // namespace vox

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/pipeline/preparation_options.h"
@@ -20,11 +21,13 @@ struct Refinement {
 };
 
 /// All objects of a scene as one mesh, after K Doo-Sabin steps; K = 0 gives the control meshes:
-/// repaired, oriented, and lifted where vertices are interpolated.
+/// repaired, oriented, and lifted where vertices are interpolated. The progress keeps a share for
+/// writing the mesh: beginLast.
 /// @throws UsageError  levels < 0; as prepare
 /// @throws MeshError   an object has contradictory arrays, or cannot be prepared; the message names
 ///   file, object and element
 /// @throws LimitError  not enough memory, or more elements than fit in 32 bits
+/// @throws Cancelled
 Refinement refine(const Scene& scene, int levels, const PreparationOptions& preparation,
                   const RunOptions& run);
 
@@ -36,15 +39,20 @@ struct PreparedObject {
 };
 
 /// Prepares an object in world space: repair, orientation, interpolation. What `options` set goes
-/// before what the scene and the object say.
+/// before what the scene and the object say. Credits the current stage of `progress`.
 /// @throws UsageError  the boundary is to be interpolated but free; vertices to interpolate are
 ///   given for more than one object at once; the weld tolerance is negative or not finite
 /// @throws MeshError   something had to be repaired or turned round though `strict` forbids it,
 ///   nothing is left after repair, or a vertex cannot be interpolated; the message names file,
 ///   object and element
 /// @throws LimitError  not enough memory
+/// @throws Cancelled
 PreparedObject prepare(const Scene& scene, const SceneObject& object,
-                       const PreparationOptions& options, const MemoryBudget& budget);
+                       const PreparationOptions& options, const MemoryBudget& budget,
+                       Progress& progress);
+
+/// Whether an object interpolates anything, by its own smoothing.
+bool interpolates(const SmoothingOptions& own);
 
 /// Checks the arrays of every object (requireValidArrays), naming file and object.
 void requireValidScene(const Scene& scene);

@@ -4,38 +4,111 @@
 
 #include "libvox/core/parallel.h"
 #include "libvox/localize/partition.h"
+#include "libvox/pipeline/refine.h"
+#include "libvox/pipeline/work.h"
+#include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/global_surface.h"
 #include "libvox/subdivide/local_surface.h"
+#include "libvox/subdivide/stop.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_group.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <utility>
+#include <vector>
+
 namespace vox {
 namespace {
+
+constexpr std::array kLocalizes = {Localize::kBefore, Localize::kDuring, Localize::kOff};
 
 /// Patches of more levels are split: 256 x 256 vertices are some 50 microseconds of work.
 constexpr int kMostLevelsOfTask = 8;
 
 using ThreadSinks = tbb::enumerable_thread_specific<VertexSink>;
 
-/// Tasks that split patches as they go, depth first.
-class PatchTasks {
+/// The part of a submesh in the work, credited as its vertices are made. How many they are is known
+/// once the last of its patches is; what is done until then is kept back.
+class SubmeshPart {
  public:
-  explicit PatchTasks(ThreadSinks& sinks) : sinks_(sinks) {}
-  ~PatchTasks() {
-    tasks_.cancel();  // no effect on what is done
-    tasks_.wait();
+  SubmeshPart(Progress& progress, double part) : progress_(progress), part_(part) {}
+
+  void did(double vertices) { credit(vertices, 0); }
+  void isAll(double vertices) { credit(0, std::max(1.0, vertices)); }
+
+ private:
+  void credit(double vertices, double all) {
+    double part = 0;
+    {
+      const std::scoped_lock lock(mutex_);
+      keptBack_ += vertices;
+      if (all > 0) perVertex_ = part_ / all;
+      if (perVertex_ > 0) part = perVertex_ * std::exchange(keptBack_, 0);
+    }
+    if (part > 0) progress_.done(part);
   }
 
-  void add(const Patch& patch, int k, int level) {
-    if (k <= kMostLevelsOfTask) return sinks_.local().patch(patch, k, level);
-    for (const auto& row : childrenOf(patch))
-      for (const Patch& child : row)
-        tasks_.run([this, child, k, level] {
-          order_.partBegins();
-          add(child, k - 1, level);
-          order_.partEnds();
-        });
+  Progress& progress_;
+  double part_;
+  std::mutex mutex_;
+  double keptBack_ = 0;   // vertices
+  double perVertex_ = 0;  // 0: not known yet
+};
+
+/// A patch, k levels above what it becomes.
+struct DeepPatch {
+  Patch patch;
+  int k;
+  int level;
+  std::shared_ptr<SubmeshPart> part;
+
+  double vertices() const { return std::ldexp(1.0, 2 * k); }
+};
+
+/// Splits deep patches, depth first.
+class DeepPatches {
+ public:
+  /// @param asTasks  each part of a patch may go to another thread
+  DeepPatches(ThreadSinks& sinks, Progress& progress, bool asTasks)
+      : sinks_(sinks), progress_(progress), asTasks_(asTasks) {}
+  ~DeepPatches() {
+    tasks_.cancel();  // no effect on what is done
+    try {
+      tasks_.wait();
+    } catch (...) {
+      // What stopped this thread is already on its way.
+    }
+  }
+  DeepPatches(const DeepPatches&) = delete;
+  DeepPatches& operator=(const DeepPatches&) = delete;
+
+  bool asTasks() const { return asTasks_; }
+
+  void mark(const DeepPatch& deep) {
+    progress_.check();
+    if (deep.k <= kMostLevelsOfTask) {
+      sinks_.local().patch(deep.patch, deep.k, deep.level);
+      deep.part->did(deep.vertices());
+      return;
+    }
+    for (const auto& row : childrenOf(deep.patch))
+      for (const Patch& child : row) {
+        const DeepPatch part{child, deep.k - 1, deep.level, deep.part};
+        if (asTasks_)
+          tasks_.run([this, part] {
+            order_.partBegins();
+            mark(part);
+            order_.partEnds();
+          });
+        else
+          mark(part);
+      }
   }
 
   void wait() {
@@ -45,56 +118,157 @@ class PatchTasks {
 
  private:
   ThreadSinks& sinks_;
+  Progress& progress_;
+  bool asTasks_;
   LoopOrder order_;
   tbb::task_group tasks_;
 };
 
-/// Keeps what is small and makes tasks of what is not.
-class SplittingSink : public SurfaceSink {
+/// Where a submesh goes: what is small to the sink of the thread, what is deep to be split.
+class SubmeshSink : public SurfaceSink {
  public:
-  SplittingSink(VertexSink& sink, PatchTasks& tasks) : sink_(sink), tasks_(tasks) {}
+  SubmeshSink(VertexSink& sink, DeepPatches& deepPatches, std::shared_ptr<SubmeshPart> part)
+      : sink_(sink),
+        deepPatches_(deepPatches),
+        part_(std::move(part)),
+        verticesBefore_(verticesOf(sink)) {}
 
   void points(std::span<const Vec3d> points, int level) override { sink_.points(points, level); }
   void curve(const CurvePoints& points, int k, int level) override {
     sink_.curve(points, k, level);
   }
   void patch(const Patch& patch, int k, int level) override {
-    if (k > kMostLevelsOfTask && patch.quadrants == kAllQuadrants)
-      tasks_.add(patch, k, level);
-    else
+    if (k <= kMostLevelsOfTask || patch.quadrants != kAllQuadrants) {
       sink_.patch(patch, k, level);
+      return;
+    }
+    const DeepPatch deep{patch, k, level, part_};
+    deepVertices_ += deep.vertices();
+    if (deepPatches_.asTasks())
+      deepPatches_.mark(deep);
+    else
+      later_.push_back(deep);
+  }
+
+  /// After the last patch.
+  void finish() {
+    const double here = verticesOf(sink_) - verticesBefore_;
+    part_->isAll(here + deepVertices_);
+    part_->did(here);
+    for (const DeepPatch& deep : later_) deepPatches_.mark(deep);
   }
 
  private:
+  static double verticesOf(const VertexSink& sink) {
+    return std::accumulate(sink.vertices().begin(), sink.vertices().end(), 0.0);
+  }
+
   VertexSink& sink_;
-  PatchTasks& tasks_;
+  DeepPatches& deepPatches_;
+  std::shared_ptr<SubmeshPart> part_;
+  std::vector<DeepPatch> later_;
+  double verticesBefore_;
+  double deepVertices_ = 0;
 };
 
-void markSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& options, ThreadSinks& sinks,
-                   SurfaceReport& report) {
+/// What part of the work each submesh is; they add up to 1.
+std::vector<double> partsOf(const Partition& partition, const PolygonMesh& mesh) {
+  std::vector<double> parts(partition.size(), 0.0);
+  constexpr std::size_t kSubmeshesPerTask = 16;
+  forEach(partition.size(), kSubmeshesPerTask, [&](Index s) {
+    for (const Index f : partition.submesh(s))
+      parts[s] += workOfSurface(areaOf(mesh, f), mesh.faceSize(f));
+  });
+  const double all = std::accumulate(parts.begin(), parts.end(), 0.0);
+  for (double& part : parts) part /= all;
+  return parts;
+}
+
+void markSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& options, Progress& progress,
+                   ThreadSinks& sinks, SurfaceReport& report) {
   const Partition partition = coverGreedily(base.mesh, base.adjacency, options.submeshFaces);
   report.submeshes += partition.size();
+  const std::vector<double> parts =
+      progress.watched() ? partsOf(partition, base.mesh) : std::vector<double>(partition.size());
   tbb::enumerable_thread_specific<LocalSurface> surfaces([&] { return LocalSurface(base); });
-  PatchTasks tasks(sinks);
+  DeepPatches deepPatches(sinks, progress, options.localize == Localize::kDuring);
   forEach(partition.size(), 1, [&](Index s) {
-    SplittingSink splitting(sinks.local(), tasks);
-    SurfaceSink& sink = options.localize == Localize::kDuring
-                            ? static_cast<SurfaceSink&>(splitting)
-                            : static_cast<SurfaceSink&>(sinks.local());
+    progress.check();
+    SubmeshSink sink(sinks.local(), deepPatches, std::make_shared<SubmeshPart>(progress, parts[s]));
     surfaces.local().emit(partition.submesh(s), sink);
+    sink.finish();
   });
-  tasks.wait();
+  deepPatches.wait();
+}
+
+/// Bytes of the next step, and of what decides which of its vertices are deep enough.
+std::uint64_t bytesOfGlobalStep(const SubdivisionLevel& level) {
+  constexpr std::uint64_t kPerPoint = sizeof(Vec3d) + sizeof(int) + sizeof(Index) + 1;
+  return bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level) +
+         nextPointCount(level) * kPerPoint + nextCornerCount(level) * sizeof(int);
+}
+
+/// How many steps the whole mesh is expected to take.
+int globalSteps(const PolygonMesh& mesh) {
+  double largest = 1;
+  std::vector<Vec3d> points;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    points.clear();
+    for (const Index v : mesh.face(f)) points.push_back(mesh.points[v]);
+    largest = std::max(largest, diameter(points));
+  }
+  return 1 + static_cast<int>(std::ceil(std::log2(largest)));
+}
+
+void markWhole(const SubdivisionLevel& base, const MemoryBudget& budget, Progress& progress,
+               const SurfaceGrid& grid, VertexSink& sink) {
+  const int steps = globalSteps(base.mesh);
+  int step = 0;
+  emitGlobally(base, sink, [&](const SubdivisionLevel& level) {
+    progress.check();
+    if (step > 0) progress.done(0.75 * std::ldexp(1.0, 2 * (step - steps)));
+    ++step;
+    budget.require(grid.memoryBytes() + bytesOfGlobalStep(level),
+                   "level " + std::to_string(step) + " of the whole mesh",
+                   "use --localize during, or larger voxels, or raise --max-memory");
+  });
 }
 
 }  // namespace
 
-void markSurface(const SubdivisionLevel& base, const SurfaceOptions& options, SurfaceGrid& grid,
+std::string localizeName(Localize localize) {
+  switch (localize) {
+    case Localize::kBefore:
+      return "before";
+    case Localize::kDuring:
+      return "during";
+    case Localize::kOff:
+      return "off";
+  }
+  return {};
+}
+
+std::optional<Localize> localizeNamed(std::string_view name) {
+  for (const Localize localize : kLocalizes)
+    if (localizeName(localize) == name) return localize;
+  return std::nullopt;
+}
+
+std::string allLocalizeNames() {
+  std::string names;
+  for (const Localize localize : kLocalizes)
+    names += (names.empty() ? "" : ", ") + localizeName(localize);
+  return names;
+}
+
+void markSurface(const SubdivisionLevel& base, const SurfaceOptions& options,
+                 const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
                  SurfaceReport& report) {
   ThreadSinks sinks([&] { return VertexSink(grid); });
   if (options.localize == Localize::kOff)
-    emitGlobally(base, sinks.local(), [](const SubdivisionLevel&) {});
+    markWhole(base, budget, progress, grid, sinks.local());
   else
-    markSubmeshes(base, options, sinks, report);
+    markSubmeshes(base, options, progress, sinks, report);
   for (VertexSink& sink : sinks) {
     sink.flush();
     for (std::size_t level = 0; level < report.vertices.size(); ++level)

@@ -1,9 +1,15 @@
 #pragma once
 
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/core/types.h"
 #include "libvox/grid/surface_grid.h"
 #include "libvox/subdivide/level.h"
 #include "libvox/voxelize/vertex_sink.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
 
 namespace vox {
 
@@ -14,6 +20,13 @@ enum class Localize {
   kDuring,  ///< besides, patches that have become large are split into tasks of their own
   kOff,     ///< the whole mesh level by level: the plain algorithm, for comparison
 };
+
+/// Names on the command line: "during".
+std::string localizeName(Localize localize);
+/// Value of that name, or nothing.
+std::optional<Localize> localizeNamed(std::string_view name);
+/// For messages: "before, during, off".
+std::string allLocalizeNames();
 
 /// Faces of a submesh: small enough for its level 1 to stay in the second-level cache, large enough
 /// for its one-ring to cost little.
@@ -31,9 +44,13 @@ struct SurfaceReport {
 
 /// Vertex conversion of a prepared surface in index space into a grid: every vertex at the level
 /// where the faces around it fit into a voxel. Parallel; the voxels do not depend on the number of
-/// threads.
+/// threads. Credits the current stage of `progress` with its parts.
+///
+/// @param budget  what kOff may use for its meshes
 /// @throws LimitError  the grid may not grow; kOff: the whole mesh would be too large
-void markSurface(const SubdivisionLevel& base, const SurfaceOptions& options, SurfaceGrid& grid,
+/// @throws Cancelled
+void markSurface(const SubdivisionLevel& base, const SurfaceOptions& options,
+                 const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
                  SurfaceReport& report);
 
 }  // namespace vox

@@ -1,0 +1,150 @@
+// What vox convert did, as JSON and as text.
+
+#include "apps/vox/convert_report.h"
+
+#include "libvox/core/memory.h"
+#include "libvox/core/version.h"
+
+#include <nlohmann/json.hpp>
+#include <openvdb/openvdb.h>
+
+#include <sstream>
+
+namespace vox::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double perVoxel(const ObjectReport& object) {
+  return static_cast<double>(object.vertices) / static_cast<double>(object.activeVoxels);
+}
+
+Json toJson(const ObjectReport& object) {
+  Json levels = Json::object();
+  for (std::size_t level = 0; level < object.verticesOfLevel.size(); ++level)
+    if (object.verticesOfLevel[level] > 0)
+      levels[std::to_string(level)] = object.verticesOfLevel[level];
+  const InterpolationReport& interpolation = object.interpolation;
+  return {{"name", object.name},
+          {"input_faces", object.inputFaces},
+          {"submeshes", object.submeshes},
+          {"levels", object.levels},
+          {"vertices", object.vertices},
+          {"vertices_of_level", levels},
+          {"active_voxels", object.activeVoxels},
+          // Infinity, when others have had all its voxels before, is null in JSON.
+          {"vertices_per_voxel", perVoxel(object)},
+          {"interpolation",
+           {{"boundary_vertices", interpolation.boundaryVertices},
+            {"interior_vertices", interpolation.lift.vertices},
+            {"iterations", interpolation.lift.iterations},
+            {"residual_voxels", interpolation.lift.residual}}}};
+}
+
+Json gridNames(const FinishedRun& run) {
+  Json names = Json::array();
+  for (const auto& grid : run.conversion.grids) names.push_back(grid->getName());
+  return names;
+}
+
+/// What was asked for; null where nothing was, and the scene or a default decided.
+Json optionsJson(const FinishedRun& run) {
+  const ConvertOptions& options = run.options;
+  const SmoothingOptions& smoothing = options.smoothing;
+  const auto orNull = [](const auto& value) { return value ? Json(*value) : Json(); };
+  return {{"dim", orNull(options.dim)},
+          {"voxel_size", orNull(options.voxelSize)},
+          {"boundary", smoothing.boundary ? Json(boundaryRuleName(*smoothing.boundary)) : Json()},
+          {"interpolate",
+           smoothing.interpolate ? Json(interpolateName(*smoothing.interpolate)) : Json()},
+          {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
+          {"grids", options.grids ? gridNames(run) : Json()},
+          {"localize", localizeName(options.surface.localize)},
+          {"submesh_faces", options.surface.submeshFaces},
+          {"threads", options.run.threads > 0 ? Json(options.run.threads) : Json()},
+          {"max_memory", options.run.maxMemory > 0 ? Json(options.run.maxMemory) : Json()}};
+}
+
+Json memoryJson(const Conversion& conversion) {
+  Json grids = Json::object();
+  for (const auto& grid : conversion.grids) grids[grid->getName()] = grid->memUsage();
+  return {{"peak_resident_bytes", peakMemory()}, {"grid_bytes", grids}};
+}
+
+std::string levelsText(const ObjectReport& object) {
+  std::ostringstream text;
+  for (std::size_t level = 0; level < object.verticesOfLevel.size(); ++level)
+    if (object.verticesOfLevel[level] > 0)
+      text << (text.tellp() > 0 ? ", " : "") << level << ": " << object.verticesOfLevel[level];
+  return text.str();
+}
+
+std::string objectText(const ObjectReport& object) {
+  std::ostringstream text;
+  text << object.name << ": " << object.inputFaces << " faces, " << object.submeshes
+       << " submeshes, " << object.vertices << " vertices (by level " << levelsText(object) << "), "
+       << object.activeVoxels << " active voxels";
+  if (object.activeVoxels > 0) text << ", " << perVoxel(object) << " vertices per voxel";
+  return text.str();
+}
+
+std::string interpolationText(const ObjectReport& object) {
+  const InterpolationReport& done = object.interpolation;
+  std::ostringstream text;
+  text << object.name << ": interpolates " << done.boundaryVertices << " boundary and "
+       << done.lift.vertices << " interior vertices, " << done.lift.iterations
+       << " iterations, off by at most " << done.lift.residual << " voxels";
+  return text.str();
+}
+
+}  // namespace
+
+std::string reportJson(const FinishedRun& run) {
+  const ConvertReport& report = run.conversion.report;
+  Json files = Json::array();
+  for (const auto& file : run.scene.files) files.push_back(file.string());
+  Json objects = Json::array();
+  for (const ObjectReport& object : report.objects) objects.push_back(toJson(object));
+  const Json json = {{"vox_version", version()},
+                     {"input", files},
+                     {"input_hash", run.scene.inputHash},
+                     {"output", run.output},
+                     {"options", optionsJson(run)},
+                     {"threads", report.threads},
+                     {"voxel_size", report.voxelSize},
+                     {"grids", gridNames(run)},
+                     {"active_voxels", report.activeVoxels},
+                     {"objects", objects},
+                     {"seconds",
+                      {{"read", run.readSeconds},
+                       {"prepare", report.prepareSeconds},
+                       {"surface", report.surfaceSeconds},
+                       {"grids", report.gridsSeconds},
+                       {"write", run.writeSeconds}}},
+                     {"memory", memoryJson(run.conversion)},
+                     {"warnings", report.warnings}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::vector<std::string> reportLines(const FinishedRun& run) {
+  const ConvertReport& report = run.conversion.report;
+  std::vector<std::string> lines;
+  for (const ObjectReport& object : report.objects) {
+    lines.push_back(objectText(object));
+    if (object.interpolation.boundaryVertices + object.interpolation.lift.vertices > 0)
+      lines.push_back(interpolationText(object));
+  }
+  std::ostringstream times;
+  times << "seconds on " << report.threads << (report.threads == 1 ? " thread" : " threads")
+        << ": read " << run.readSeconds << ", prepare " << report.prepareSeconds << ", surface "
+        << report.surfaceSeconds << ", grids " << report.gridsSeconds << ", write "
+        << run.writeSeconds;
+  lines.push_back(times.str());
+  std::string memory = "memory: peak " + formatBytes(peakMemory());
+  for (const auto& grid : run.conversion.grids)
+    memory += ", " + grid->getName() + " " + formatBytes(grid->memUsage());
+  lines.push_back(memory);
+  return lines;
+}
+
+}  // namespace vox::app

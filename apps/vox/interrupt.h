@@ -1,0 +1,20 @@
+#pragma once
+
+#include "libvox/core/progress.h"
+
+namespace vox::app {
+
+/// A signal that asks to stop (SIGINT, SIGTERM, SIGHUP) ends the process with exit code 130 and
+/// leaves no partial file, unless the caller of the program chose to ignore it.
+void handleSignals();
+
+/// As long as it lives, the first such signal cancels a run instead. One at a time.
+class CancelOnSignal {
+ public:
+  explicit CancelOnSignal(Progress& run);
+  ~CancelOnSignal();
+  CancelOnSignal(const CancelOnSignal&) = delete;
+  CancelOnSignal& operator=(const CancelOnSignal&) = delete;
+};
+
+}  // namespace vox::app

@@ -1,0 +1,48 @@
+// What stages cost, roughly.
+
+#include "libvox/pipeline/work.h"
+
+#include <Eigen/Geometry>
+
+namespace vox {
+
+double workOfPreparing(const PolygonMesh& mesh, bool interpolates) {
+  constexpr double kPerCorner = 300;
+  return mesh.cornerCount() * (interpolates ? kPerCorner / kPartBeforeInterpolation : kPerCorner);
+}
+
+double workOfSurface(double area, std::uint64_t corners) {
+  constexpr double kPerSquareVoxel = 4;
+  constexpr double kPerCorner = 150;
+  return kPerSquareVoxel * area + kPerCorner * static_cast<double>(corners);
+}
+
+double workOfDensity(double area) {
+  return 13 * area;
+}
+
+double workOfWritingMask(double area) {
+  return 8 * area;
+}
+
+double workOfWritingDensity(double area) {
+  return 32 * area;
+}
+
+double areaOf(const PolygonMesh& mesh, Index face) {
+  double twice = 0;
+  const auto vertices = mesh.face(face);
+  for (std::size_t i = 1; i + 1 < vertices.size(); ++i)
+    twice += (mesh.points[vertices[i]] - mesh.points[vertices[0]])
+                 .cross(Vec3d(mesh.points[vertices[i + 1]] - mesh.points[vertices[0]]))
+                 .norm();
+  return twice / 2;
+}
+
+double areaOf(const PolygonMesh& mesh) {
+  double area = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f) area += areaOf(mesh, f);
+  return area;
+}
+
+}  // namespace vox

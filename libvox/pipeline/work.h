@@ -1,0 +1,30 @@
+#pragma once
+
+#include "libvox/mesh/polygon_mesh.h"
+
+#include <cstdint>
+
+namespace vox {
+
+// What stages cost beside each other, in nanoseconds of one thread as once measured. Only the bar
+// that shows how far a run has come depends on it.
+
+/// Of making a mesh an oriented manifold, and of moving its vertices where it is to interpolate.
+double workOfPreparing(const PolygonMesh& mesh, bool interpolates);
+/// What of it is done when interpolation begins.
+inline constexpr double kPartBeforeInterpolation = 0.6;
+/// Of a surface, or a part of it.
+/// @param area  of its control mesh, in square voxels
+double workOfSurface(double area, std::uint64_t corners);
+/// Of turning the voxels into a density grid.
+double workOfDensity(double area);
+/// Of writing a grid.
+double workOfWritingMask(double area);
+double workOfWritingDensity(double area);
+
+/// Area of a face as a fan, in the square of whatever the unit of the points is.
+double areaOf(const PolygonMesh& mesh, Index face);
+/// Of all faces.
+double areaOf(const PolygonMesh& mesh);
+
+}  // namespace vox

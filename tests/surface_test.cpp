@@ -1,0 +1,209 @@
+#include "libvox/pipeline/surface.h"
+
+#include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
+#include "libvox/grid/voxel.h"
+#include "libvox/prepare/repair.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "libvox/subdivide/global_surface.h"
+#include "tests/shapes.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <chrono>
+
+using namespace vox;
+using Catch::Contains;
+
+namespace {
+
+struct Marked {
+  openvdb::MaskTree::Ptr tree;
+  SurfaceReport report;
+};
+
+Marked mark(const SubdivisionLevel& base, const SurfaceOptions& options, Progress& progress) {
+  SurfaceGrid grid;
+  Marked marked;
+  markSurface(base, options, MemoryBudget(std::uint64_t{1} << 34), progress, grid, marked.report);
+  marked.tree = grid.takeTree();
+  return marked;
+}
+
+Marked mark(const SubdivisionLevel& base, const SurfaceOptions& options) {
+  Progress unwatched;
+  return mark(base, options, unwatched);
+}
+
+SubdivisionLevel scaled(PolygonMesh mesh, double size) {
+  RepairReport report;
+  mesh = repair(std::move(mesh), {}, report);
+  for (Vec3d& p : mesh.points) p *= size;
+  return baseLevel(std::move(mesh), BoundaryRule::kExtend);
+}
+
+/// Voxels that a vertex is within a distance of being rounded to, if it is near more than one.
+class NearTies : public SurfaceSink {
+ public:
+  openvdb::MaskTree voxels;
+
+  void points(std::span<const Vec3d> points, int) override {
+    constexpr double kDistance = 1e-4;
+    for (const Vec3d& p : points) {
+      const openvdb::Coord low = voxelOf(p - Vec3d::Constant(kDistance));
+      const openvdb::Coord high = voxelOf(p + Vec3d::Constant(kDistance));
+      if (low != high) voxels.fill(openvdb::CoordBBox(low, high), true);
+    }
+  }
+  void patch(const Patch&, int, int) override { FAIL("not from the whole mesh"); }
+  void curve(const CurvePoints&, int, int) override { FAIL("not from the whole mesh"); }
+};
+
+/// Voxels of `a` that `b` lacks; each must be one of `excuses`.
+std::size_t differences(const openvdb::MaskTree& a, const openvdb::MaskTree& b,
+                        const openvdb::MaskTree& excuses) {
+  std::size_t count = 0;
+  for (auto voxel = a.cbeginValueOn(); voxel; ++voxel) {
+    if (b.isValueOn(voxel.getCoord())) continue;
+    ++count;
+    if (!excuses.isValueOn(voxel.getCoord())) FAIL("differs away from any tie");
+  }
+  return count;
+}
+
+/// A cube whose patches are split into tasks.
+SubdivisionLevel largeCube() {
+  return scaled(test::cube(), 600);
+}
+
+}  // namespace
+
+TEST_CASE("the voxels do not depend on how a surface is cut into submeshes",
+          "[pipeline][localize][property]") {
+  for (const auto* shapes : {&test::shapes(), &test::openShapes()})
+    for (const auto& shape : *shapes) {
+      CAPTURE(shape.name);
+      const SubdivisionLevel base = scaled(shape.mesh, 17);
+      const Marked plain = mark(base, {});
+      for (const auto localize : {Localize::kBefore, Localize::kDuring})
+        for (const Index faces : {1U, 7U, 1000U}) {
+          const Marked other = mark(base, {localize, faces});
+          CHECK(other.tree->hasSameTopology(*plain.tree));
+          CHECK(other.report.vertices == plain.report.vertices);
+        }
+    }
+}
+
+TEST_CASE("the voxels do not depend on whether large patches are split into tasks",
+          "[pipeline][localize]") {
+  const SubdivisionLevel base = largeCube();
+  const Marked plain = mark(base, {});
+  CHECK(plain.tree->activeVoxelCount() > 5000000);
+  for (const Index faces : {1U, 7U, 1000U}) {
+    const Marked whole = mark(base, {Localize::kBefore, faces});
+    CHECK(whole.tree->hasSameTopology(*plain.tree));
+    CHECK(whole.report.vertices == plain.report.vertices);
+  }
+}
+
+TEST_CASE("the whole mesh level by level has the voxels of its submeshes, but for rounding ties",
+          "[pipeline][localize][property]") {
+  std::size_t ties = 0;
+  const auto compare = [&](const SubdivisionLevel& base) {
+    const Marked local = mark(base, {});
+    const Marked whole = mark(base, {Localize::kOff, 1});
+    CHECK(whole.report.vertices == local.report.vertices);
+    CHECK(whole.report.submeshes == 0);
+    NearTies excuses;
+    emitGlobally(base, excuses, [](const SubdivisionLevel&) {});
+    ties += differences(*local.tree, *whole.tree, excuses.voxels);
+    ties += differences(*whole.tree, *local.tree, excuses.voxels);
+  };
+  for (const auto* shapes : {&test::shapes(), &test::openShapes()})
+    for (const auto& shape : *shapes) {
+      CAPTURE(shape.name);
+      compare(scaled(shape.mesh, 17));
+    }
+  for (const double size : {64.0, 99.9}) {
+    CAPTURE(size);
+    compare(scaled(test::cube(), size));  // full of exact ties
+    compare(scaled(test::dodecahedron(), size));
+  }
+  CAPTURE(ties);
+  CHECK(ties < 1000);
+}
+
+TEST_CASE("split patches fill one grid alike on any number of threads", "[pipeline][parallel]") {
+  const SubdivisionLevel base = largeCube();
+  const Marked first = mark(base, {});
+  for (const int threads : {1, 2, 8}) {
+    const Marked other = onThreads(threads, [&] { return mark(base, {}); });
+    CHECK(other.tree->hasSameTopology(*first.tree));
+    CHECK(other.report.vertices == first.report.vertices);
+  }
+}
+
+TEST_CASE("a level of the whole mesh that cannot fit is refused before it is made",
+          "[pipeline][localize][error]") {
+  SurfaceGrid grid;
+  SurfaceReport report;
+  Progress unwatched;
+  const MemoryBudget budget(std::uint64_t{1} << 26);
+  const auto run = [&] {
+    markSurface(largeCube(), {Localize::kOff, 1}, budget, unwatched, grid, report);
+  };
+  CHECK_THROWS_AS(run(), LimitError);
+  CHECK_THROWS_WITH(run(),
+                    Contains("of the whole mesh needs about") && Contains("use --localize during"));
+}
+
+TEST_CASE("the bar moves evenly while a surface is made, also when it is one submesh",
+          "[pipeline]") {
+  for (const auto localize : {Localize::kBefore, Localize::kDuring}) {
+    double last = 0;
+    double largestStep = 0;
+    std::size_t calls = 0;
+    Progress progress(
+        [&](double fraction, const char*) {
+          largestStep = std::max(largestStep, fraction - last);
+          last = fraction;
+          ++calls;
+        },
+        std::chrono::nanoseconds(0));
+    progress.plan(1);
+    progress.beginLast("surface");
+    // At this size most of the vertices lie in patches that are split.
+    onThreads(1, [&] { return mark(scaled(test::cube(), 1500), {localize, 256}, progress); });
+    CAPTURE(localizeName(localize), calls, largestStep);
+    CHECK(calls > 100);
+    CHECK(largestStep < 0.1);
+    CHECK(last == Approx(1));
+  }
+}
+
+TEST_CASE("a surface that is cancelled stops at the next submesh or split patch",
+          "[pipeline][parallel]") {
+  for (const auto localize : {Localize::kBefore, Localize::kDuring, Localize::kOff})
+    for (const int threads : {1, 8}) {
+      Progress* run = nullptr;
+      std::size_t calls = 0;
+      Progress progress(
+          [&](double, const char*) {
+            if (++calls == 3) run->cancel();
+          },
+          std::chrono::nanoseconds(0));
+      run = &progress;
+      progress.plan(1);
+      progress.beginLast("surface");
+      const SubdivisionLevel base =
+          localize == Localize::kOff ? scaled(test::cube(), 60) : largeCube();
+      CAPTURE(localizeName(localize), threads);
+      CHECK_THROWS_AS(onThreads(threads,
+                                [&] {
+                                  return mark(base, {localize, 1}, progress);
+                                }),
+                      Cancelled);
+      CHECK(calls < 3 + 40);  // of hundreds
+    }
+}
