@@ -5,6 +5,7 @@ list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/Open
 find_package(OpenVDB REQUIRED COMPONENTS openvdb)
 find_package(TBB REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(hwy REQUIRED)
 find_package(OpenMesh REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)
