@@ -55,10 +55,9 @@ Int magnitude(Int x) {
 
 /// Voxels [lo, hi] in a row; none if lo > hi.
 struct Interval {
-  std::int32_t lo = std::numeric_limits<std::int32_t>::min();
-  std::int32_t hi = std::numeric_limits<std::int32_t>::max();
+  std::int32_t lo, hi;  // left as they are in tables, of which triangles mostly use a small part
 
-  bool contains(std::int32_t x) const { return lo <= x && x <= hi; }
+  bool contains(std::int32_t x) const { return (lo <= x) & (x <= hi); }
   bool empty() const { return lo > hi; }
   std::size_t size() const { return static_cast<std::size_t>(hi - lo + 1); }
   Interval common(Interval other) const { return {std::max(lo, other.lo), std::min(hi, other.hi)}; }
@@ -67,7 +66,8 @@ struct Interval {
     return {std::min(lo, other.lo), std::max(hi, other.hi)};
   }
 };
-constexpr Interval kAll = {};
+constexpr Interval kAll = {std::numeric_limits<std::int32_t>::min(),
+                           std::numeric_limits<std::int32_t>::max()};
 constexpr Interval kNothing = {1, 0};
 
 /// Centres whose segment of half width pad / 2 meets [min, max] (lattice steps).
@@ -272,6 +272,43 @@ Plane<Int> planeOf(const std::array<Lattice, 3>& corners) {
   return plane;
 }
 
+/// Writes runs of voxels along axis w, of columns in one row along u, as blocks. A local copy keeps
+/// its members in registers: no block can overlap it.
+class RowWriter {
+ public:
+  RowWriter(const std::array<int, 3>& axes, const std::array<std::int32_t, 3>& origin,
+            Index triangle)
+      : u_(axes[0]), v_(axes[1]), w_(axes[2]), pattern_{origin, triangle, 1} {
+    const int stride = 4 - 2 * w_;  // log2 of the bits from voxel to voxel
+    for (int count = 0; count < 4; ++count)
+      runs_[count + 1] = runs_[count] | std::uint64_t{1} << (count << stride);
+  }
+
+  RowWriter inRow(std::int32_t v) const {
+    RowWriter writer = *this;
+    writer.pattern_.origin[v_] += v;
+    return writer;
+  }
+
+  /// Voxel (u, v, w).
+  void one(VoxelBlock& block, std::int32_t u, std::int32_t w) const {
+    block = pattern_;
+    block.origin[u_] += u;
+    block.origin[w_] += w;
+  }
+
+  /// `count` voxels (0 to 4) from (u, v, w) on.
+  void run(VoxelBlock& block, std::int32_t u, std::int32_t w, int count) const {
+    one(block, u, w);
+    block.voxels = runs_[count];
+  }
+
+ private:
+  int u_, v_, w_;
+  VoxelBlock pattern_;
+  std::array<std::uint64_t, 5> runs_{};
+};
+
 /// One triangle, seen along axis w, which it faces most: within a column along w the plane rises by
 /// two voxels at most, so that a column has at most four black voxels. Rows run along u.
 template <class Int>
@@ -320,33 +357,22 @@ class TriangleScan {
     return {top - 2 * (normalU_ * u + normalV_ * v), -2 * normalU_, 2 * normalW_};
   }
 
-  void put(VoxelBlock& block, std::int32_t u, std::int32_t v, std::int32_t w, int count) const {
-    block.origin[axisU_] = originU_ + u;
-    block.origin[axisV_] = originV_ + v;
-    block.origin[axisW_] = originW_ + w;
-    block.triangle = triangle_;
-    block.voxels = runs_[count];
-  }
-
   Sink& sink_;
-  const Index triangle_;
   const Plane<Int> plane_;
   const int axisW_, axisU_, axisV_;
   const Projection<Int> uv_, wv_, wu_;
-  const std::int32_t originU_, originV_, originW_;
+  const RowWriter writer_;
   Interval rows_;
   Int normalU_, normalV_, normalW_;  ///< of the plane; W > 0 and the largest
   Int sizeU_, sizeV_;                ///< magnitudes
   /// A box of centre c and half widths t meets the plane iff ceil - t.|n| <= 2 n.c <= floor +
   /// t.|n|.
   Int planeFloor_, planeCeil_;
-  std::array<std::uint64_t, 5> runs_{};  ///< the first 0..4 voxels of a block along w
 };
 
 template <class Int>
 TriangleScan<Int>::TriangleScan(const Snapped& snapped, Index triangle, Sink& sink)
     : sink_(sink),
-      triangle_(triangle),
       plane_(planeOf<Int>(snapped.corners)),
       axisW_(largestAxis(plane_.normal)),
       axisU_(axisW_ == 2 ? 1 : 2),
@@ -354,9 +380,7 @@ TriangleScan<Int>::TriangleScan(const Snapped& snapped, Index triangle, Sink& si
       uv_(snapped.corners, axisU_, axisV_),
       wv_(snapped.corners, axisW_, axisV_),
       wu_(snapped.corners, axisW_, axisU_),
-      originU_(snapped.origin[axisU_]),
-      originV_(snapped.origin[axisV_]),
-      originW_(snapped.origin[axisW_]) {
+      writer_({axisU_, axisV_, axisW_}, snapped.origin, triangle) {
   const auto [lowV, highV] = std::minmax(
       {snapped.corners[0][axisV_], snapped.corners[1][axisV_], snapped.corners[2][axisV_]});
   rows_ = voxelsAcross(lowV, highV, 1);
@@ -372,10 +396,6 @@ TriangleScan<Int>::TriangleScan(const Snapped& snapped, Index triangle, Sink& si
                         Int128{normalW_} * corner[axisW_];
   planeFloor_ = static_cast<Int>(offset >> kHalfLog2);
   planeCeil_ = static_cast<Int>(-(-offset >> kHalfLog2));
-
-  const int stride = 4 - 2 * axisW_;  // log2 of the bits from voxel to voxel
-  for (int count = 0; count < 4; ++count)
-    runs_[count + 1] = runs_[count] | std::uint64_t{1} << (count << stride);
 }
 
 template <class Int>
@@ -394,6 +414,7 @@ void TriangleScan<Int>::scanRows26(std::int32_t firstV, std::size_t count) {
       const Interval columns = tile.common(uv[row]);
       if (columns.empty()) continue;
       const auto v = firstV + static_cast<std::int32_t>(row);
+      const RowWriter writer = writer_.inRow(v);
       FloorLine<Int> line = highest(lowest, columns.lo, v);
       VoxelBlock* const blocks = sink_.room(kTile);
       VoxelBlock* block = blocks;
@@ -403,7 +424,7 @@ void TriangleScan<Int>::scanRows26(std::int32_t firstV, std::size_t count) {
             (reach >= line.divisor) + (reach >= 2 * line.divisor) + (reach >= 3 * line.divisor);
         const auto low = static_cast<std::int32_t>(line.floor);
         const Interval run = Interval{low, low + more}.common(wv[row]).common(wu[u - tile.lo]);
-        put(*block++, u, v, run.lo, run.hi - run.lo + 1);
+        writer.run(*block++, u, run.lo, run.hi - run.lo + 1);
       }
       sink_.take(static_cast<std::size_t>(block - blocks));
     }
@@ -452,49 +473,57 @@ template <class Int>
 void TriangleScan<Int>::scanRow6(const Tables6& tables, std::int32_t firstU, std::int32_t firstV,
                                  std::size_t row, Interval columns) {
   const auto v = firstV + static_cast<std::int32_t>(row);
-  const bool lattice = planeFloor_ == planeCeil_;
+  const RowWriter writer = writer_.inRow(v);
+  const bool open = planeFloor_ != planeCeil_;
   FloorLine<Int> line = highest(planeCeil_ + normalW_ - 1, columns.lo, v);
   VoxelBlock* const blocks = sink_.room(2 * kTile);
   VoxelBlock* block = blocks;
 
-  // 2 n.c of the voxel is planeCeil + height.
-  const auto near = [&] { return normalW_ - 1 - line.rest; };
-  const auto tied = [&] { return lattice && line.rest == line.divisor - 1; };
+  // A plane halfway between two centres has both.
+  const auto tied = [&] { return !open && line.rest == line.divisor - 1; };
   const auto tryUntil = [&](std::int32_t& u, std::int32_t end) {
     for (; u < end; ++u, line.next()) {
       const auto w = static_cast<std::int32_t>(line.floor);
-      const std::size_t column = static_cast<std::size_t>(u - firstU);
-      if (black6(tables, column, row, u, w, near())) put(*block++, u, v, w, 1);
-      if (tied() && black6(tables, column, row, u, w + 1, near() + 2 * normalW_))
-        put(*block++, u, v, w + 1, 1);
+      const auto column = static_cast<std::size_t>(u - firstU);
+      const Int height = normalW_ - 1 - line.rest;
+      writer.one(*block, u, w);
+      block += black6(tables, column, row, u, w, height);
+      if (!tied()) continue;
+      writer.one(*block, u, w + 1);
+      block += black6(tables, column, row, u, w + 1, height + 2 * normalW_);
     }
   };
 
-  const std::int32_t end = columns.hi + 1;
   std::int32_t u = columns.lo;
   const Interval inside = columns.common(tables.uv00[row]);
   if (plane_.solid && !inside.empty()) {
     tryUntil(u, inside.lo);
-    for (; u <= inside.hi; ++u, line.next())
-      put(*block++, u, v, static_cast<std::int32_t>(line.floor), 1 + tied());
+    if (open)
+      for (; u <= inside.hi; ++u, line.next())
+        writer.one(*block++, u, static_cast<std::int32_t>(line.floor));
+    else
+      for (; u <= inside.hi; ++u, line.next())
+        writer.run(*block++, u, static_cast<std::int32_t>(line.floor), 1 + tied());
   }
-  tryUntil(u, end);
+  tryUntil(u, columns.hi + 1);
   sink_.take(static_cast<std::size_t>(block - blocks));
 }
 
+/// For voxel (u, v, w) whose 2 n.c is planeCeil + height. Without branches: which of the
+/// inequalities fails is anyone's guess.
 template <class Int>
 bool TriangleScan<Int>::black6(const Tables6& tables, std::size_t column, std::size_t row,
                                std::int32_t u, std::int32_t w, Int height) const {
   const auto nearPlane = [&](Int size) {
-    return -size <= height && height + planeCeil_ - planeFloor_ <= size;
+    return (-size <= height) & (height + planeCeil_ - planeFloor_ <= size);
   };
-  const bool alongU = tables.uv10[row].contains(u) && tables.wv00[row].contains(w) &&
-                      tables.wu01[column].contains(w) && nearPlane(sizeU_);
-  const bool alongV = tables.uv01[row].contains(u) && tables.wv01[row].contains(w) &&
-                      tables.wu00[column].contains(w) && nearPlane(sizeV_);
-  const bool alongW = tables.uv00[row].contains(u) && tables.wv10[row].contains(w) &&
-                      tables.wu10[column].contains(w);
-  return alongU || alongV || alongW;
+  const bool alongU = tables.uv10[row].contains(u) & tables.wv00[row].contains(w) &
+                      tables.wu01[column].contains(w) & nearPlane(sizeU_);
+  const bool alongV = tables.uv01[row].contains(u) & tables.wv01[row].contains(w) &
+                      tables.wu00[column].contains(w) & nearPlane(sizeV_);
+  const bool alongW =
+      tables.uv00[row].contains(u) & tables.wv10[row].contains(w) & tables.wu10[column].contains(w);
+  return alongU | alongV | alongW;
 }
 
 void scanLarge(std::span<const Vec3d, 3> corners, Index triangle, Separation separation,
