@@ -13,12 +13,15 @@
 #include "libvox/core/error.h"
 #include "libvox/voxelize/scan_small.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace vox::detail {
 namespace {
@@ -535,29 +538,108 @@ void scanLarge(std::span<const Vec3d, 3> corners, Index triangle, Separation sep
     TriangleScan<Int128>(snapped, triangle, sink).scan(separation);
 }
 
-/// Scans the triangles numbered `first` and up whose corners are in `small`.
-void scanChunk(SmallScan& small, Index first, std::size_t count, Separation separation,
-               Sink& sink) {
-  scanSmall(small, count, separation);
-  VoxelBlock* blocks = sink.room(kScanChunk);
+/// Feeds the vector kernel, a chunk of blocks at a time.
+class BlockQueue {
+ public:
+  BlockQueue(std::span<const Vec3d> points, std::span<const std::array<Index, 3>> triangles,
+             Separation separation, Sink& sink)
+      : points_(points), triangles_(triangles), separation_(separation), sink_(sink) {}
+
+  /// Adds the first block of a triangle; others follow from there.
+  void add(Index triangle) { add({triangle, {0, 0, 0}}); }
+
+  void flush() {
+    while (count_ > 0) scanChunk();
+  }
+
+ private:
+  struct Block {
+    Index triangle;
+    std::array<int, 3> offset;  ///< voxels
+    bool first() const { return offset == std::array{0, 0, 0}; }
+  };
+
+  void add(const Block& block) {
+    const auto& triangle = triangles_[block.triangle];
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int corner = 0; corner < 3; ++corner)
+        scan_.corners[3 * corner + axis][count_] = points_[triangle[corner]][axis];
+      scan_.offset[axis][count_] = block.offset[axis];
+    }
+    blocks_[count_] = block;
+    if (++count_ == kScanChunk) scanChunk();
+  }
+
+  void scanChunk();
+  void addOthers(std::size_t lane, std::vector<Block>& others) const;
+
+  std::span<const Vec3d> points_;
+  std::span<const std::array<Index, 3>> triangles_;
+  Separation separation_;
+  Sink& sink_;
+  std::size_t count_ = 0;
+  std::array<Block, kScanChunk> blocks_{};
+  SmallScan scan_{};
+};
+
+void BlockQueue::scanChunk() {
+  const std::size_t count = std::exchange(count_, 0);
+  scanSmall(scan_, count, separation_);
+  VoxelBlock* const room = sink_.room(kScanChunk);
   std::size_t taken = 0;
+  bool rest = false;
   for (std::size_t i = 0; i < count; ++i) {
-    VoxelBlock& block = blocks[taken];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      block.origin[axis] = static_cast<std::int32_t>(small.origin[axis][i]);
-    block.triangle = first + static_cast<Index>(i);
-    block.voxels = small.voxels[i];
-    taken += small.fits[i] != 0 && small.voxels[i] != 0;
+    VoxelBlock& block = room[taken];
+    bool single = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      block.origin[axis] = static_cast<std::int32_t>(scan_.origin[axis][i]);
+      single &= scan_.across[axis][i] < kBlockSide;
+    }
+    block.triangle = blocks_[i].triangle;
+    block.voxels = scan_.voxels[i];
+    taken += scan_.fits[i] != 0 && scan_.voxels[i] != 0;
+    rest |= (scan_.fits[i] == 0 || !single) && blocks_[i].first();
   }
-  sink.take(taken);
+  sink_.take(taken);
+  if (!rest) return;
+
+  std::vector<Block> others;
   for (std::size_t i = 0; i < count; ++i) {
-    if (small.fits[i] != 0) continue;
-    std::array<Vec3d, 3> corners;
-    for (int corner = 0; corner < 3; ++corner)
-      for (int axis = 0; axis < 3; ++axis)
-        corners[corner][axis] = small.corners[3 * corner + axis][i];
-    scanLarge(corners, first + static_cast<Index>(i), separation, sink);
+    if (!blocks_[i].first()) continue;
+    if (scan_.fits[i] != 0) {
+      addOthers(i, others);
+      continue;
+    }
+    const auto& triangle = triangles_[blocks_[i].triangle];
+    const std::array<Vec3d, 3> corners = {points_[triangle[0]], points_[triangle[1]],
+                                          points_[triangle[2]]};
+    scanLarge(corners, blocks_[i].triangle, separation_, sink_);
   }
+  for (const Block& block : others) add(block);  // these have no others
+}
+
+/// The blocks of a triangle but the first, without those that its plane clearly misses.
+void BlockQueue::addOthers(std::size_t lane, std::vector<Block>& others) const {
+  const auto& triangle = triangles_[blocks_[lane].triangle];
+  const Vec3d& corner = points_[triangle[0]];
+  const Vec3d normal =
+      (points_[triangle[1]] - corner).cross(points_[triangle[2]] - points_[triangle[0]]);
+  // Half a block, and more than snapping and rounding move the plane.
+  const double reach = (0.5 * kBlockSide + 1e-3) * normal.lpNorm<1>() + 1e-2;
+  const auto blocksAlong = [&](int axis) {
+    return static_cast<int>(scan_.across[axis][lane]) / kBlockSide + 1;
+  };
+  for (int x = 0; x < blocksAlong(0); ++x)
+    for (int y = 0; y < blocksAlong(1); ++y)
+      for (int z = 0; z < blocksAlong(2); ++z) {
+        const Block block = {blocks_[lane].triangle,
+                             {x * kBlockSide, y * kBlockSide, z * kBlockSide}};
+        if (block.first()) continue;
+        Vec3d centre;
+        for (int axis = 0; axis < 3; ++axis)
+          centre[axis] = scan_.origin[axis][lane] + block.offset[axis] + 0.5 * (kBlockSide - 1);
+        if (std::abs(normal.dot(centre - corner)) <= reach) others.push_back(block);
+      }
 }
 
 }  // namespace
@@ -565,15 +647,9 @@ void scanChunk(SmallScan& small, Index first, std::size_t count, Separation sepa
 void scanTriangles(std::span<const Vec3d> points, std::span<const std::array<Index, 3>> triangles,
                    Separation separation, EmitBlocks emit, void* visit) {
   Sink sink(emit, visit);
-  SmallScan small{};
-  for (std::size_t first = 0; first < triangles.size(); first += kScanChunk) {
-    const std::size_t count = std::min(kScanChunk, triangles.size() - first);
-    for (std::size_t i = 0; i < count; ++i)
-      for (int corner = 0; corner < 3; ++corner)
-        for (int axis = 0; axis < 3; ++axis)
-          small.corners[3 * corner + axis][i] = points[triangles[first + i][corner]][axis];
-    scanChunk(small, static_cast<Index>(first), count, separation, sink);
-  }
+  BlockQueue queue(points, triangles, separation, sink);
+  for (std::size_t i = 0; i < triangles.size(); ++i) queue.add(static_cast<Index>(i));
+  queue.flush();
   sink.flush();
 }
 

@@ -1,9 +1,9 @@
-// Triangle scan conversion with one triangle per vector lane, for triangles within 4 x 4 x 4
-// voxels.
+// Triangle scan conversion with one block of 4 x 4 x 4 voxels per vector lane.
 //
 // The inequalities are those of scan.cpp. Everything is a whole number below 2^53, kept in doubles:
-// exact, and the same on every processor. With extents below 2^18 lattice steps, edges have 18
-// bits, normals 37, and no term below more than 47.
+// exact, and the same on every processor. A triangle is at most 16 voxels across, 2^20 lattice
+// steps, so normals (areas of projections) stay within 2^40. Corners are within 2^20.1 steps of the
+// block, and the largest terms, the two parts of n.corner, within 3 * 2^50.1.
 
 #include "libvox/voxelize/scan_small.h"
 
@@ -230,7 +230,7 @@ void finishPlane(Triangles& t) {
                              hn::Mul(hn::Sub(t.corners[1][b], t.corners[0][b]),
                                      hn::Sub(t.corners[2][a], t.corners[0][a])));
   }
-  constexpr double kPart = 512;
+  constexpr double kPart = 1024;
   constexpr double kRest = kHalf / kPart;
   V high = hn::Zero(D());
   V low = hn::Zero(D());
@@ -254,23 +254,31 @@ void scanVector(SmallScan& scan, std::size_t first, Separation separation) {
   const hn::RebindToUnsigned<D> du;
   Triangles t;
   V reach = hn::Zero(d);
-  V across = hn::Zero(d);
+  V mostAcross = hn::Zero(d);
+  V mostLast = hn::Zero(d);
   V origin[3];
   for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < 3; ++i)
-      t.corners[i][axis] = hn::Round(
-          hn::Mul(hn::Load(d, scan.corners[3 * i + axis].data() + first), broadcast(kUnit)));
-    const V* const c[3] = {&t.corners[0][axis], &t.corners[1][axis], &t.corners[2][axis]};
+    V* const c[3] = {&t.corners[0][axis], &t.corners[1][axis], &t.corners[2][axis]};
+    for (int i = 0; i < 3; ++i) {
+      const V position = hn::Load(d, scan.corners[3 * i + axis].data() + first);
+      *c[i] = hn::Round(hn::Mul(position, broadcast(kUnit)));
+      reach = hn::Max(reach, hn::Abs(*c[i]));
+    }
     t.low[axis] = hn::Min(hn::Min(*c[0], *c[1]), *c[2]);
     t.high[axis] = hn::Max(hn::Max(*c[0], *c[1]), *c[2]);
-    origin[axis] =
+    const V begin =
         hn::Floor(hn::Mul(hn::Add(t.low[axis], broadcast(kHalf - 1)), broadcast(1 / kUnit)));
     const V end = hn::Floor(hn::Mul(hn::Add(t.high[axis], broadcast(kHalf)), broadcast(1 / kUnit)));
-    t.last[axis] = hn::Sub(end, origin[axis]);
-    across = hn::Max(across, t.last[axis]);
-    for (int i = 0; i < 3; ++i) reach = hn::Max(reach, hn::Abs(*c[i]));
+    const V across = hn::Sub(end, begin);
+    const V offset = hn::Load(d, scan.offset[axis].data() + first);
+    origin[axis] = hn::Add(begin, offset);
+    t.last[axis] = hn::Sub(across, offset);
+    mostAcross = hn::Max(mostAcross, across);
+    mostLast = hn::Max(mostLast, t.last[axis]);
+    hn::Store(across, d, scan.across[axis].data() + first);
   }
-  auto fits = hn::And(hn::Le(across, broadcast(3)), hn::Le(reach, broadcast(kUnit * (1 << 30))));
+  auto fits = hn::And(hn::Le(mostAcross, broadcast(kSmallAcross - 1)),
+                      hn::Le(reach, broadcast(kUnit * (1 << 30))));
   for (int i = 0; i < 3; ++i)
     for (int axis = 0; axis < 3; ++axis)
       fits = hn::And(fits, hn::Eq(t.corners[i][axis], t.corners[i][axis]));
@@ -286,9 +294,9 @@ void scanVector(SmallScan& scan, std::size_t first, Separation separation) {
     t.high[axis] = hn::Sub(t.high[axis], shift);
   }
   finishPlane(t);
-  across = hn::IfThenElseZero(fits, across);
-  const Bits voxels = hn::AllTrue(d, hn::Le(across, broadcast(2))) ? scanBlocks<3>(t, separation)
-                                                                   : scanBlocks<4>(t, separation);
+  const auto within3 = hn::Le(hn::IfThenElseZero(fits, mostLast), broadcast(2));
+  const Bits voxels =
+      hn::AllTrue(d, within3) ? scanBlocks<3>(t, separation) : scanBlocks<4>(t, separation);
   hn::Store(voxels, du, scan.voxels.data() + first);
 }
 
