@@ -91,9 +91,9 @@ struct FloorLine {
 
   void next() {
     rest += stepRest;
-    const bool carry = rest >= divisor;
-    rest -= carry ? divisor : 0;
-    floor += stepFloor + (carry ? 1 : 0);
+    const Int carry = -Int{rest >= divisor};  // all ones or none: a branch would be mispredicted
+    rest -= divisor & carry;
+    floor += stepFloor - carry;
   }
 
   Int floor, rest, stepFloor, stepRest, divisor;
@@ -281,7 +281,12 @@ class RowWriter {
  public:
   RowWriter(const std::array<int, 3>& axes, const std::array<std::int32_t, 3>& origin,
             Index triangle)
-      : u_(axes[0]), v_(axes[1]), w_(axes[2]), pattern_{origin, triangle, 1} {
+      : u_(axes[0]),
+        v_(axes[1]),
+        w_(axes[2]),
+        originU_(origin[u_]),
+        originW_(origin[w_]),
+        pattern_{origin, triangle, 1} {
     const int stride = 4 - 2 * w_;  // log2 of the bits from voxel to voxel
     for (int count = 0; count < 4; ++count)
       runs_[count + 1] = runs_[count] | std::uint64_t{1} << (count << stride);
@@ -296,8 +301,8 @@ class RowWriter {
   /// Voxel (u, v, w).
   void one(VoxelBlock& block, std::int32_t u, std::int32_t w) const {
     block = pattern_;
-    block.origin[u_] += u;
-    block.origin[w_] += w;
+    block.origin[u_] = originU_ + u;
+    block.origin[w_] = originW_ + w;
   }
 
   /// `count` voxels (0 to 4) from (u, v, w) on.
@@ -308,6 +313,7 @@ class RowWriter {
 
  private:
   int u_, v_, w_;
+  std::int32_t originU_, originW_;
   VoxelBlock pattern_;
   std::array<std::uint64_t, 5> runs_{};
 };
