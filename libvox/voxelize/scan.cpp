@@ -69,8 +69,6 @@ struct Interval {
     return {std::min(lo, other.lo), std::max(hi, other.hi)};
   }
 };
-constexpr Interval kAll = {std::numeric_limits<std::int32_t>::min(),
-                           std::numeric_limits<std::int32_t>::max()};
 constexpr Interval kNothing = {1, 0};
 
 /// Centres whose segment of half width pad / 2 meets [min, max] (lattice steps).
@@ -240,16 +238,10 @@ int largestAxis(const std::array<Int, 3>& v) {
   return largest;
 }
 
-/// A plane through a triangle: its normal, or for a segment or point a normal across it.
+/// Normal of a plane through a triangle; through a segment or point, of one that it faces. Not 0.
 template <class Int>
-struct Plane {
-  std::array<Int, 3> normal{};
-  bool solid = true;  ///< the triangle spans the plane
-};
-
-template <class Int>
-Plane<Int> planeOf(const std::array<Lattice, 3>& corners) {
-  Plane<Int> plane;
+std::array<Int, 3> planeNormal(const std::array<Lattice, 3>& corners) {
+  std::array<Int, 3> normal;
   std::array<std::array<Int, 3>, 3> edges;
   for (int i = 0; i < 3; ++i)
     for (int axis = 0; axis < 3; ++axis)
@@ -257,12 +249,11 @@ Plane<Int> planeOf(const std::array<Lattice, 3>& corners) {
   for (int axis = 0; axis < 3; ++axis) {
     const int a = (axis + 1) % 3;
     const int b = (axis + 2) % 3;
-    plane.normal[axis] = edges[0][a] * edges[1][b] - edges[0][b] * edges[1][a];
+    normal[axis] = edges[0][a] * edges[1][b] - edges[0][b] * edges[1][a];
   }
-  if (plane.normal != std::array<Int, 3>{}) return plane;
+  if (normal != std::array<Int, 3>{}) return normal;
 
   // A segment or point: the normal that lies in the plane of the longest and the shortest axis.
-  plane.solid = false;
   std::array<Int, 3> along = edges[0];
   for (const auto& edge : edges)
     if (magnitude(edge[largestAxis(edge)]) > magnitude(along[largestAxis(along)])) along = edge;
@@ -270,9 +261,9 @@ Plane<Int> planeOf(const std::array<Lattice, 3>& corners) {
   int shortest = (longest + 1) % 3;
   if (magnitude(along[(longest + 2) % 3]) < magnitude(along[shortest]))
     shortest = (longest + 2) % 3;
-  plane.normal[longest] = -along[shortest];
-  plane.normal[shortest] = along[longest] == 0 ? Int{1} : along[longest];
-  return plane;
+  normal[longest] = -along[shortest];
+  normal[shortest] = along[longest] == 0 ? Int{1} : along[longest];
+  return normal;
 }
 
 /// Writes runs of voxels along axis w, of columns in one row along u, as blocks. A local copy keeps
@@ -340,7 +331,7 @@ class TriangleScan {
 
   /// Tables of the 6-target. Pads along the axes in the order of the names.
   struct Tables6 {
-    Table uv00, uv10, uv01, wv00, wv10, wv01, wu00, wu10, wu01;
+    Table uv00, uv10, uv01, wv00, wu00;
   };
 
   void scanRows26(std::int32_t firstV, std::size_t count);
@@ -350,7 +341,7 @@ class TriangleScan {
   bool black6(const Tables6& tables, std::size_t column, std::size_t row, std::int32_t u,
               std::int32_t w, Int height) const;
 
-  /// Calls tile(firstU, columns) for the tiles that cover some rows.
+  /// Calls tile(columns) for the tiles along u that cover some rows.
   template <class Tile>
   static void forTiles(std::span<const Interval> rows, Tile&& tile) {
     Interval all = {std::numeric_limits<std::int32_t>::max(),
@@ -367,7 +358,7 @@ class TriangleScan {
   }
 
   Sink& sink_;
-  const Plane<Int> plane_;
+  const std::array<Int, 3> normal_;
   const int axisW_, axisU_, axisV_;
   const Projection<Int> uv_, wv_, wu_;
   const RowWriter writer_;
@@ -382,8 +373,8 @@ class TriangleScan {
 template <class Int>
 TriangleScan<Int>::TriangleScan(const Snapped& snapped, Index triangle, Sink& sink)
     : sink_(sink),
-      plane_(planeOf<Int>(snapped.corners)),
-      axisW_(largestAxis(plane_.normal)),
+      normal_(planeNormal<Int>(snapped.corners)),
+      axisW_(largestAxis(normal_)),
       axisU_(axisW_ == 2 ? 1 : 2),
       axisV_(axisW_ == 0 ? 1 : 0),
       uv_(snapped.corners, axisU_, axisV_),
@@ -394,10 +385,10 @@ TriangleScan<Int>::TriangleScan(const Snapped& snapped, Index triangle, Sink& si
       {snapped.corners[0][axisV_], snapped.corners[1][axisV_], snapped.corners[2][axisV_]});
   rows_ = voxelsAcross(lowV, highV, 1);
 
-  const Int sign = plane_.normal[axisW_] < 0 ? -1 : 1;
-  normalU_ = sign * plane_.normal[axisU_];
-  normalV_ = sign * plane_.normal[axisV_];
-  normalW_ = sign * plane_.normal[axisW_];
+  const Int sign = normal_[axisW_] < 0 ? -1 : 1;
+  normalU_ = sign * normal_[axisU_];
+  normalV_ = sign * normal_[axisV_];
+  normalW_ = sign * normal_[axisW_];
   sizeU_ = magnitude(normalU_);
   sizeV_ = magnitude(normalV_);
   const Lattice& corner = snapped.corners[0];
@@ -448,26 +439,11 @@ void TriangleScan<Int>::scanRows6(std::int32_t firstV, std::size_t count) {
   uv_.slice(1, 0, firstV, rows(tables.uv10));
   uv_.slice(0, 1, firstV, rows(tables.uv01));
   wv_.slice(0, 0, firstV, rows(tables.wv00));
-  // Where the plane crosses the segments, the projection along them says it all.
-  const bool allU = plane_.solid && normalU_ != 0;
-  const bool allV = plane_.solid && normalV_ != 0;
-  const auto sliceOr = [](bool all, const Projection<Int>& projection, int padA, int padB,
-                          std::int32_t first, std::span<Interval> table) {
-    if (all)
-      std::fill(table.begin(), table.end(), kAll);
-    else
-      projection.slice(padA, padB, first, table);
-  };
-  sliceOr(plane_.solid, wv_, 1, 0, firstV, rows(tables.wv10));
-  sliceOr(allV, wv_, 0, 1, firstV, rows(tables.wv01));
 
   Table hull;
   for (std::size_t row = 0; row < count; ++row) hull[row] = tables.uv10[row].hull(tables.uv01[row]);
   forTiles(rows(hull), [&](Interval tile) {
-    const auto columns = [&](Table& table) { return std::span(table).first(tile.size()); };
-    wu_.slice(0, 0, tile.lo, columns(tables.wu00));
-    sliceOr(plane_.solid, wu_, 1, 0, tile.lo, columns(tables.wu10));
-    sliceOr(allU, wu_, 0, 1, tile.lo, columns(tables.wu01));
+    wu_.slice(0, 0, tile.lo, std::span(tables.wu00).first(tile.size()));
     for (std::size_t row = 0; row < count; ++row) {
       const Interval met = tile.common(hull[row]);
       if (!met.empty()) scanRow6(tables, tile.lo, firstV, row, met);
@@ -505,7 +481,7 @@ void TriangleScan<Int>::scanRow6(const Tables6& tables, std::int32_t firstU, std
 
   std::int32_t u = columns.lo;
   const Interval inside = columns.common(tables.uv00[row]);
-  if (plane_.solid && !inside.empty()) {
+  if (!inside.empty()) {
     tryUntil(u, inside.lo);
     if (open)
       for (; u <= inside.hi; ++u, line.next())
@@ -518,7 +494,10 @@ void TriangleScan<Int>::scanRow6(const Tables6& tables, std::int32_t firstU, std
   sink_.take(static_cast<std::size_t>(block - blocks));
 }
 
-/// For voxel (u, v, w) whose 2 n.c is planeCeil + height. Without branches: which of the
+/// For voxel (u, v, w) whose 2 n.c is planeCeil + height and whose segment along w misses. These
+/// inequalities imply the others: where n has a component along the segment, its line meets the
+/// triangle (wv00, wu00) at a point that the plane tells to be within the segment; where it has
+/// none, the segment is in the plane, which is one to one with uv. Without branches: which of the
 /// inequalities fails is anyone's guess.
 template <class Int>
 bool TriangleScan<Int>::black6(const Tables6& tables, std::size_t column, std::size_t row,
@@ -526,13 +505,11 @@ bool TriangleScan<Int>::black6(const Tables6& tables, std::size_t column, std::s
   const auto nearPlane = [&](Int size) {
     return (-size <= height) & (height + planeCeil_ - planeFloor_ <= size);
   };
-  const bool alongU = tables.uv10[row].contains(u) & tables.wv00[row].contains(w) &
-                      tables.wu01[column].contains(w) & nearPlane(sizeU_);
-  const bool alongV = tables.uv01[row].contains(u) & tables.wv01[row].contains(w) &
-                      tables.wu00[column].contains(w) & nearPlane(sizeV_);
-  const bool alongW =
-      tables.uv00[row].contains(u) & tables.wv10[row].contains(w) & tables.wu10[column].contains(w);
-  return alongU | alongV | alongW;
+  const bool alongU =
+      tables.uv10[row].contains(u) & tables.wv00[row].contains(w) & nearPlane(sizeU_);
+  const bool alongV =
+      tables.uv01[row].contains(u) & tables.wu00[column].contains(w) & nearPlane(sizeV_);
+  return alongU | alongV;
 }
 
 void scanLarge(std::span<const Vec3d, 3> corners, Index triangle, Separation separation,

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 namespace vox {
 
@@ -68,8 +69,9 @@ void emitTo(void* visit, std::span<const VoxelBlock> blocks) {
 ///   26: the closed cubes of neighbours share a point, and no white cube meets the snapped surface;
 ///       so neither does the union of the cubes of a white path.
 ///
-/// Cost: O(columns + perimeter) along the axis that the triangle faces most; triangles of up to 4
-/// voxels across go several at a time through the processor's vector unit, with the same result.
+/// Cost: O(columns + perimeter) along the axis that the triangle faces most; triangles of up to 16
+/// voxels across go block by block, several at a time, through the processor's vector unit, with
+/// the same result.
 ///
 /// @param points     index space, unit: voxels; |coordinate| <= 2^30
 /// @param triangles  corners as indices into points; VoxelBlock::triangle counts in this list
