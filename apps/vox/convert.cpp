@@ -20,6 +20,7 @@ struct Options {
   std::string output;
   ResolutionOptions resolution;
   SmoothingArguments smoothing;
+  VoxelizationArguments voxelization;
   std::optional<double> weldTolerance;
   std::optional<bool> strict;
   std::string grids;
@@ -45,8 +46,11 @@ void printReport(const Options& options, const ConvertReport& report) {
   if (!options.common.verbose) return;
   for (const ObjectReport& object : report.objects) {
     std::ostringstream text;
-    text << object.name << ": " << object.inputFaces << " faces, " << object.levels << " levels, "
-         << object.submeshes << " submeshes, " << object.vertices << " vertices";
+    text << object.name << ": " << object.inputFaces << " faces, " << object.levels << " levels, ";
+    if (object.polygons.triangles > 0)
+      text << object.polygons.triangles << " triangles";
+    else
+      text << object.submeshes << " submeshes, " << object.vertices << " vertices";
     say(options.common, text.str());
     sayInterpolation(options.common, object);
   }
@@ -72,6 +76,8 @@ int run(const Options& options) {
   convertOptions.dim = options.resolution.dim;
   convertOptions.voxelSize = options.resolution.voxelSize;
   convertOptions.smoothing = parseSmoothing(options.smoothing);
+  convertOptions.until = parseUntil(options.voxelization);
+  convertOptions.separation = parseSeparation(options.voxelization);
   convertOptions.weldTolerance = options.weldTolerance;
   convertOptions.strict = options.strict;
   convertOptions.run = options.common.run;
@@ -99,6 +105,7 @@ Action addConvert(CLI::App& app) {
       ->group("Output");
   addResolutionOptions(*command, options->resolution);
   addSmoothingOptions(*command, options->smoothing);
+  addVoxelizationOptions(*command, options->voxelization);
   addWeldOption(*command, options->weldTolerance);
   addStrictOption(*command, options->strict);
   command

@@ -10,6 +10,7 @@
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/volume/density.h"
@@ -84,6 +85,26 @@ void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, Conv
                               " separate faces, each smoothed by itself" + kWhy);
 }
 
+// Where to stop
+
+StopRule stopRuleOf(const SceneObject& object, const Scene& scene, const ConvertOptions& options) {
+  for (const auto& said : {options.until, object.until, scene.until})
+    if (said) return *said;
+  return {};
+}
+
+void requireStopRules(const Scene& scene, const ConvertOptions& options) {
+  for (const SceneObject& object : scene.objects) {
+    const StopRule until = stopRuleOf(object, scene, options);
+    if (until.levels && (*until.levels < 0 || *until.levels > kMostLevels))
+      throw UsageError("the number of levels must lie between 0 and " +
+                       std::to_string(kMostLevels) + ", not " + std::to_string(*until.levels));
+    if (!until.levels && options.separation == Separation::k26)
+      throw UsageError(object.name +
+                       ": --separating 26 needs polygons; give --until levels=K with it");
+  }
+}
+
 // Memory of grids
 
 /// Bytes of a tree of floats with the nodes of a mask.
@@ -153,6 +174,7 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
   if (smoothing.interpolatedVertices)
     text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
   if (options.weldTolerance) text << " weld=" << *options.weldTolerance;
+  if (options.until) text << " until=" << stopRuleName(*options.until);
   return text.str();
 }
 
@@ -161,6 +183,7 @@ openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
   int levels = 0;
   for (const ObjectReport& object : report.objects) levels = std::max(levels, object.levels);
   const auto voxels = static_cast<openvdb::Int64>(report.activeVoxels);
+  const char* guarantee = options.separation == Separation::k26 ? "26-separating" : "6-separating";
   openvdb::MetaMap metadata;
   metadata.insertMeta("vox_version", openvdb::StringMetadata(version()));
   if (!scene.files.empty()) {
@@ -170,7 +193,7 @@ openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
   metadata.insertMeta("vox_options",
                       openvdb::StringMetadata(optionText(transform, scene, options)));
   metadata.insertMeta("vox_levels", openvdb::Int32Metadata(levels));
-  metadata.insertMeta("vox_guarantee", openvdb::StringMetadata("6-separating"));
+  metadata.insertMeta("vox_guarantee", openvdb::StringMetadata(guarantee));
   metadata.insertMeta("vox_active_voxels", openvdb::Int64Metadata(voxels));
   return metadata;
 }
@@ -187,7 +210,6 @@ void notePreparation(const PreparedObject& prepared, const GridTransform& transf
                      ObjectReport& part, ConvertReport& report) {
   part.interpolation = prepared.interpolation;
   report.warnings.insert(report.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
-  warnOfBoundary(part.name, prepared.base, report);
   requireInRange(usedBox(prepared.base.mesh), transform);
 }
 
@@ -201,6 +223,20 @@ void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
   }
 }
 
+/// Polygon conversion of an object, with a warning if its polygons are not what they should be.
+void convertPolygons(PreparedObject prepared, int levels, Separation separation,
+                     const MemoryBudget& budget, SurfaceGrid& grid, ObjectReport& part,
+                     std::vector<std::string>& warnings) {
+  markPolygons(std::move(prepared.base), levels, separation, budget, grid, part.polygons);
+  part.levels = levels;
+  const std::uint64_t fanned = part.polygons.fanned;
+  if (fanned > 0)
+    warnings.push_back(part.name + ": " + std::to_string(fanned) +
+                       (fanned == 1 ? " polygon is" : " polygons are") +
+                       " folded or without area and became " + (fanned == 1 ? "a fan" : "fans") +
+                       " of triangles");
+}
+
 openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& options,
                                       const GridTransform& transform, double longestSide,
                                       MemoryBudget& budget, ConvertReport& report) {
@@ -209,15 +245,22 @@ openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& 
     ObjectReport& part = report.objects.emplace_back();
     part.name = object.name;
     part.inputFaces = object.mesh.faceCount();
+    const StopRule until = stopRuleOf(object, scene, options);
     PreparedObject prepared;
     {
       const StageTimer timer(report.prepareSeconds);
       prepared = prepare(scene, object, options, budget);
+      if (until.levels != 0) warnOfBoundary(part.name, prepared.base, report);
       notePreparation(prepared, transform, part, report);
       moveToIndexSpace(prepared.base.mesh, transform);
       requireMaskFits(prepared.base.mesh, transform, longestSide, budget);
     }
     const StageTimer timer(report.surfaceSeconds);
+    if (until.levels) {
+      convertPolygons(std::move(prepared), *until.levels, options.separation, budget, grid, part,
+                      report.warnings);
+      continue;
+    }
     SurfaceReport surface;
     markSurface(prepared.base, options.surface, grid, surface);
     noteSurface(surface, part);
@@ -258,6 +301,7 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options) {
 }  // namespace
 
 Conversion convert(const Scene& scene, const ConvertOptions& options) {
+  requireStopRules(scene, options);
   requireValidScene(scene);
   return onThreads(options.run.threads, [&] { return convertScene(scene, options); });
 }

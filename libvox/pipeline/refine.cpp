@@ -106,15 +106,6 @@ std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
   return mesh.cornerCount() * kPerCorner + mesh.pointCount() * kPerVertex;
 }
 
-SubdivisionLevel subdivided(SubdivisionLevel level, int levels, const MemoryBudget& budget) {
-  for (int k = 1; k <= levels; ++k) {
-    budget.require(bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level),
-                   "level " + std::to_string(k), kAdvice);
-    level = nextLevel(level, imageVertices(level));
-  }
-  return level;
-}
-
 void append(PolygonMesh& all, PolygonMesh part) {
   if (std::uint64_t{all.cornerCount()} + part.cornerCount() >= kNone ||
       std::uint64_t{all.pointCount()} + part.pointCount() >= kNone)
@@ -138,7 +129,7 @@ Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& p
   for (const SceneObject& object : scene.objects) {
     budget.take(bytesOf(object.mesh), "the input", kAdvice);
     PreparedObject prepared = prepare(scene, object, preparation, budget);
-    PolygonMesh part = subdivided(std::move(prepared.base), levels, budget).mesh;
+    PolygonMesh part = subdividedWithin(budget, std::move(prepared.base), levels).mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
     budget.take(2 * bytesOf(part), "the refined mesh", kAdvice);
@@ -167,6 +158,15 @@ std::uint64_t bytesOfNextTopology(const SubdivisionLevel& level) {
   constexpr std::uint64_t kTables = 6 * sizeof(Index);
   constexpr std::uint64_t kCorner = 4 * sizeof(Index);  // vertex, twin, face; offsets, rounded up
   return level.mesh.cornerCount() * kTables + nextCornerCount(level) * kCorner;
+}
+
+SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel level, int levels) {
+  for (int k = 1; k <= levels; ++k) {
+    budget.require(bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level),
+                   "level " + std::to_string(k), kAdvice);
+    level = nextLevel(level, imageVertices(level));
+  }
+  return level;
 }
 
 void requireValidScene(const Scene& scene) {

@@ -46,6 +46,10 @@ struct PreparedObject {
 PreparedObject prepare(const Scene& scene, const SceneObject& object,
                        const PreparationOptions& options, const MemoryBudget& budget);
 
+/// K Doo-Sabin steps.
+/// @throws LimitError  a level does not fit into the budget, or has 2^32 - 1 corners or more
+SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel level, int levels);
+
 /// Checks the arrays of every object (requireValidArrays), naming file and object.
 void requireValidScene(const Scene& scene);
 
