@@ -197,6 +197,34 @@ expect 2 'free boundary cannot be interpolated' convert good.obj -o out.vdb --bo
 echo '1 two' >wrong.txt
 expect 3 'wrong.txt:1: ' convert good.obj -o out.vdb --interpolate-vertices wrong.txt
 
+# Polygons: the cube of 8 voxels has 9^3 - 7^3 on its faces.
+expect 0 ': 386 active voxels' convert "$scenes/cube.obj" -o polygons.vdb --dim 8 --until levels=0
+expect 0 ': 386 active voxels' convert "$scenes/cube.obj" -o polygons26.vdb --dim 8 --until levels=0 --separating 26
+expect 0 '' info polygons.vdb polygons26.vdb
+for separating in 6 26; do
+  grep -q "vox_guarantee.*[^2]$separating-separating" stdout || fail "guarantee of $separating: $(cat stdout)"
+done
+expect 0 '' convert "$scenes/cube.obj" -o polygons.vdb --dim 8 --until levels=1 --verbose --force
+grep -q ', 44 triangles after 1 levels' stderr || fail "triangles: $(cat stderr)"
+# The command line before the object, the object before [convert].
+cube="mesh = '$scenes/cube.obj'"
+printf '[convert]\ndim = 8\nuntil = { levels = 1 }\n[[object]]\nuntil = { levels = 0 }\n%s\n' "$cube" >until.toml
+expect 0 ': 386 active voxels' convert until.toml -o until.vdb
+expect 0 ': 386 active voxels' convert until.toml -o until.vdb --force --separating 26
+expect 0 '' convert until.toml -o until.vdb --force --until voxel --verbose
+grep -q 'submeshes' stderr || fail "--until over an object's: $(cat stderr)"
+printf '[convert]\ndim = 8\nuntil = { levels = 0 }\n[[object]]\n%s\n' "$cube" >until.toml
+expect 0 ': 386 active voxels' convert until.toml -o until.vdb --force
+for until in voxels levels levels=31 levels=-1 levels=two; do
+  expect 2 '--until must be one of voxel, levels=K' convert good.obj -o out.vdb --until "$until"
+done
+expect 2 "--separating must be 6 or 26, not '18'" convert good.obj -o out.vdb --separating 18
+expect 2 'give --until levels=K' convert good.obj -o out.vdb --separating 26
+expect 2 'give --until levels=K' convert good.obj -o out.vdb --separating 26 --until voxel
+printf '[convert]\nuntil = { levels = 31 }\n[[object]]\n%s\n' "$cube" >until.toml
+expect 3 'until.toml:2:20: levels must lie between 0 and 30' convert until.toml -o out.vdb
+expect 4 'use fewer levels' convert "$scenes/cube.obj" -o out.vdb --until levels=30 --max-memory 256M
+
 # Faults of a mesh are repaired, and told.
 expect 0 '' convert winding.obj -o winding.vdb --dim 8
 grep -q 'warning: winding: dropped 1 duplicate face' stderr || fail "no word of the repair: $(cat stderr)"

@@ -105,6 +105,20 @@ TEST_CASE("an object says how it is smoothed", "[scene]") {
   CHECK(overriding({}, first).interpolatedVertices == std::vector<Index>{2, 0});
 }
 
+TEST_CASE("the scene and an object say where to stop", "[scene]") {
+  const Scene scene = read(
+      "[convert]\nuntil = { levels = 3 }\n"
+      "[[object]]\nuntil = { levels = 0 }\n" +
+      kTriangle + "[[object]]\nuntil = 'voxel'\n" + kTriangle + "[[object]]\n" + kTriangle);
+  REQUIRE(scene.until.has_value());
+  CHECK(scene.until->levels == 3);
+  REQUIRE(scene.objects[0].until.has_value());
+  CHECK(scene.objects[0].until->levels == 0);
+  REQUIRE(scene.objects[1].until.has_value());
+  CHECK_FALSE(scene.objects[1].until->levels.has_value());
+  CHECK_FALSE(scene.objects[2].until.has_value());
+}
+
 TEST_CASE("a list of indices is read with its comments, and refused by line", "[scene]") {
   const test::TemporaryFolder folder;
   CHECK(readIndices(folder.write("a.txt", "3 1\n# four\n  4\t7 # and seven\n")) ==
@@ -131,6 +145,11 @@ TEST_CASE("what a scene gets wrong is named with line and column", "[scene][erro
   checkRefused("[convert]\ndim = 3\nvoxel_size = 1\n", ":3:14:", "cannot both be given");
   checkRefused("[convert]\nweld = -1\n", ":2:8:", "weld must be 0 or more");
   checkRefused("[convert]\nweld = 'all'\n", ":2:8:", "weld must be a number");
+  checkRefused("[convert]\nuntil = 'levels=3'\n", ":2:9:", "until must be \"voxel\" or { levels");
+  checkRefused("[convert]\nuntil = {}\n", ":2:9:", "until must be \"voxel\" or { levels");
+  checkRefused("[convert]\nuntil = { depth = 3 }\n", ":2:11:", "unknown key 'depth' in until");
+  checkRefused("[convert]\nuntil = { levels = 31 }\n", ":2:20:", "between 0 and 30, not 31");
+  checkRefused(object + "until = 3\n", ":4:9:", "until must be \"voxel\" or { levels");
   checkRefused("[convert]\nstrict = 1\n", ":2:10:", "strict must be true or false");
   checkRefused("[convert]\ngrids = ['fog']\n", ":2:10:", "unknown grid 'fog'; known are density");
   checkRefused("[[object]]\nname = 'x'\n", ":1:1:", "needs either mesh, or points and faces");

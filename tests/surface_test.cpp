@@ -57,7 +57,13 @@ class NearTies : public SurfaceSink {
     }
   }
   void patch(const Patch&, int, int) override { FAIL("not from the whole mesh"); }
-  void curve(const CurvePoints&, int, int) override { FAIL("not from the whole mesh"); }
+  void curve(const CurvePoints& curve, int k, int level) override {
+    const std::int64_t n = std::int64_t{1} << k;
+    for (std::int64_t j = 0; j < n; ++j) {
+      const Vec3d p = PatchWeights(j, n)(curve[0], curve[1], curve[2]);
+      points({&p, 1}, level);
+    }
+  }
 };
 
 /// Voxels of `a` that `b` lacks; each must be one of `excuses`.

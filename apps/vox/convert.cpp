@@ -25,6 +25,7 @@ struct Options {
   std::string output;
   ResolutionOptions resolution;
   SmoothingArguments smoothing;
+  VoxelizationArguments voxelization;
   std::optional<double> weldTolerance;
   std::optional<bool> strict;
   SubmeshArguments submeshes;
@@ -78,6 +79,8 @@ ConvertOptions parse(const Options& options) {
   parsed.dim = options.resolution.dim;
   parsed.voxelSize = options.resolution.voxelSize;
   parsed.smoothing = parseSmoothing(options.smoothing);
+  parsed.until = parseUntil(options.voxelization);
+  parsed.separation = parseSeparation(options.voxelization);
   parsed.weldTolerance = options.weldTolerance;
   parsed.strict = options.strict;
   parsed.surface = parseSubmeshes(options.submeshes);
@@ -129,6 +132,7 @@ Action addConvert(CLI::App& app) {
       ->group("Output");
   addResolutionOptions(*command, options->resolution);
   addSmoothingOptions(*command, options->smoothing);
+  addVoxelizationOptions(*command, options->voxelization);
   addWeldOption(*command, options->weldTolerance);
   addStrictOption(*command, options->strict);
   command

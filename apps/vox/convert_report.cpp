@@ -31,6 +31,8 @@ Json toJson(const ObjectReport& object) {
           {"levels", object.levels},
           {"vertices", object.vertices},
           {"vertices_of_level", levels},
+          {"triangles", object.polygons.triangles},
+          {"fanned_polygons", object.polygons.fanned},
           {"active_voxels", object.activeVoxels},
           // Infinity, when others have had all its voxels before, is null in JSON.
           {"vertices_per_voxel", perVoxel(object)},
@@ -82,9 +84,14 @@ std::string levelsText(const ObjectReport& object) {
 std::string objectText(const ObjectReport& object) {
   std::ostringstream text;
   text << object.name << ": " << object.inputFaces << " faces, " << object.submeshes
-       << " submeshes, " << object.vertices << " vertices (by level " << levelsText(object) << "), "
-       << object.activeVoxels << " active voxels";
-  if (object.activeVoxels > 0) text << ", " << perVoxel(object) << " vertices per voxel";
+       << " submeshes, ";
+  if (object.polygons.triangles > 0)
+    text << object.polygons.triangles << " triangles after " << object.levels << " levels, ";
+  else
+    text << object.vertices << " vertices (by level " << levelsText(object) << "), ";
+  text << object.activeVoxels << " active voxels";
+  if (object.activeVoxels > 0 && object.vertices > 0)
+    text << ", " << perVoxel(object) << " vertices per voxel";
   return text.str();
 }
 
@@ -93,7 +100,7 @@ std::string interpolationText(const ObjectReport& object) {
   std::ostringstream text;
   text << object.name << ": interpolates " << done.boundaryVertices << " boundary and "
        << done.lift.vertices << " interior vertices, " << done.lift.iterations
-       << " iterations, off by at most " << done.lift.residual << " voxels";
+       << " iterations, off by at most " << done.lift.residual << " world units";
   return text.str();
 }
 

@@ -122,6 +122,37 @@ SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   return smoothing;
 }
 
+void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments) {
+  command
+      .add_option("--until", arguments.until,
+                  "Subdivide down to the size of a voxel (voxel), or K times and scan-convert the "
+                  "polygons (levels=K; levels=0: those of the input) (default: the scene's, or "
+                  "voxel)")
+      ->type_name("voxel|levels=K")
+      ->group("Voxels");
+  command
+      .add_option("--separating", arguments.separating,
+                  "Paths of white voxels that the surface stops: those through faces (6), or those "
+                  "through edges and corners too (26; needs --until levels=K) (default: 6)")
+      ->type_name("6|26")
+      ->group("Voxels");
+}
+
+std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments) {
+  if (arguments.until.empty()) return std::nullopt;
+  const auto rule = stopRuleNamed(arguments.until);
+  if (!rule)
+    throw UsageError("--until must be one of " + allStopRuleNames() + ", not '" + arguments.until +
+                     "'");
+  return rule;
+}
+
+Separation parseSeparation(const VoxelizationArguments& arguments) {
+  if (arguments.separating.empty() || arguments.separating == "6") return Separation::k6;
+  if (arguments.separating == "26") return Separation::k26;
+  throw UsageError("--separating must be 6 or 26, not '" + arguments.separating + "'");
+}
+
 void addWeldOption(CLI::App& command, std::optional<double>& tolerance) {
   command
       .add_option_function<double>(

@@ -3,9 +3,11 @@
 #include "libvox/grid/grid_kind.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/smoothing.h"
+#include "libvox/mesh/stop_rule.h"
 #include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
 #include "libvox/pipeline/surface.h"
+#include "libvox/voxelize/scan.h"
 
 #include <CLI/CLI.hpp>
 
@@ -42,6 +44,18 @@ void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments);
 /// What they mean; reads the file of vertices.
 /// @throws UsageError, InputError
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments);
+
+/// --until and --separating, as typed.
+struct VoxelizationArguments {
+  std::string until;
+  std::string separating;
+};
+void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments);
+
+/// What they mean; nothing if not said.
+/// @throws UsageError
+std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
+Separation parseSeparation(const VoxelizationArguments& arguments);
 
 /// --weld, as said.
 void addWeldOption(CLI::App& command, std::optional<double>& tolerance);

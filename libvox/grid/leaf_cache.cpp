@@ -126,6 +126,30 @@ void LeafCache::collect(const openvdb::Coord& low, const openvdb::Coord& high) {
   }
 }
 
+void LeafCache::addBlock(const openvdb::Coord& origin, std::uint64_t voxels) {
+  const openvdb::Coord leaf = origin >> kLeafLog2;
+  const auto in = [](std::int32_t v) { return static_cast<unsigned>(v) & 7U; };
+  const unsigned y = in(origin.y());
+  const unsigned z = in(origin.z());
+  const auto add = [&](std::int32_t x, std::int32_t leafY, std::int32_t leafZ, std::uint64_t bits) {
+    if (bits != 0) wordsOf({x >> kLeafLog2, leafY, leafZ})[in(x)] |= bits;
+  };
+  // A row along z is a byte of a leaf's word; rows beyond the last y go to the next leaf.
+  const auto addRows = [&](std::int32_t x, std::int32_t leafZ, std::uint64_t rows) {
+    add(x, leaf.y(), leafZ, rows << (8 * y));
+    if (y > 4) add(x, leaf.y() + 1, leafZ, rows >> (64 - 8 * y));
+  };
+  for (std::int32_t i = 0; i < 4; ++i) {
+    // Four rows of four bits: each to a byte of its own, then along z, over the end of this leaf.
+    std::uint32_t rows = static_cast<std::uint32_t>(voxels >> (16 * i)) & 0xFFFFU;
+    rows = (rows | rows << 8U) & 0x00FF00FFU;
+    rows = (rows | rows << 4U) & 0x0F0F0F0FU;
+    constexpr std::uint32_t kEachByte = 0x01010101U;
+    addRows(origin.x() + i, leaf.z(), (rows & (0xFFU >> z) * kEachByte) << z);
+    addRows(origin.x() + i, leaf.z() + 1, rows >> (8 - z) & ((1U << z) - 1) * kEachByte);
+  }
+}
+
 void LeafCache::replace(std::size_t slot, const LeafCoord& leaf) {
   if (leaves_[slot] != kNoLeaf) send(leaves_[slot], words_[slot]);
   words_[slot].fill(0);

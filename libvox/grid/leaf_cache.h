@@ -48,6 +48,11 @@ class LeafCache {
     words[in(voxel.x())] |= std::uint64_t{1} << (in(voxel.y()) << 3U | in(voxel.z()));
   }
 
+  /// Switches on voxels of the 4 x 4 x 4 block that begins at `origin`, which may lie across
+  /// leaves: bit 16 i + 4 j + k stands for voxel origin + (i, j, k).
+  /// @throws LimitError  as collect
+  void addBlock(const openvdb::Coord& origin, std::uint64_t voxels);
+
   /// Sends everything to the grid.
   void flush();
 

@@ -55,6 +55,9 @@ class SurfaceGrid {
   /// @throws LimitError  as pageOf
   void add(std::span<PageLeaf> leaves);
 
+  /// Changes the limit. Not thread-safe.
+  void setMemoryLimit(std::uint64_t bytes) { memoryLimit_ = bytes; }
+
   /// Bytes of the nodes so far.
   std::uint64_t memoryBytes() const { return memoryBytes_; }
 

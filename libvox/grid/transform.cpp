@@ -44,12 +44,12 @@ GridTransform transformForVoxelSize(double voxelSize) {
   return {voxelSize};
 }
 
-void requireInRange(const Box& boxWorld, const GridTransform& transform) {
+void requireInRange(const Box& boxWorld, const GridTransform& transform, const std::string& what) {
   if (boxWorld.empty()) return;
   const double reach =
       std::max(boxWorld.low.cwiseAbs().maxCoeff(), boxWorld.high.cwiseAbs().maxCoeff());
   if (reach / transform.voxelSize < kMaxIndex) return;
-  throw LimitError("the input reaches " + str(reach) +
+  throw LimitError(what + " reaches " + str(reach) +
                    " world units from the origin, more than 2^30" + " voxels of size " +
                    str(transform.voxelSize) + "; use a voxel size of at least " +
                    str(reach / kMaxIndex * 1.001) + " or move the input nearer to the origin");

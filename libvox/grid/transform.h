@@ -4,6 +4,7 @@
 #include "libvox/mesh/polygon_mesh.h"
 
 #include <limits>
+#include <string>
 
 namespace vox {
 
@@ -51,6 +52,7 @@ GridTransform transformForVoxelSize(double voxelSize);
 
 /// @throws LimitError  the box reaches beyond kMaxIndex; the message names the smallest voxel size
 ///   that works
-void requireInRange(const Box& boxWorld, const GridTransform& transform);
+void requireInRange(const Box& boxWorld, const GridTransform& transform,
+                    const std::string& what = "the input");
 
 }  // namespace vox

@@ -110,6 +110,18 @@ Vec3d requireVector(const SceneText& scene, const toml::node& node, const std::s
           requireNumber(scene, array[2], name)};
 }
 
+/// until = "voxel" or { levels = 3 }
+StopRule readStopRule(const SceneText& scene, const toml::node& node) {
+  const auto* table = node.as_table();
+  const auto* levels = table != nullptr ? table->get("levels") : nullptr;
+  if (table != nullptr) requireKnownKeys(scene, *table, "until", {"levels"});
+  if (levels != nullptr)
+    return {static_cast<int>(requireInteger(scene, *levels, "levels", 0, kMostLevels))};
+  if (node.value_exact<std::string>() != stopRuleName({}))
+    scene.fail(node, "until must be \"voxel\" or { levels = K }");
+  return {};
+}
+
 // [convert]
 
 std::vector<GridKind> readGrids(const SceneText& scene, const toml::node& node) {
@@ -125,7 +137,8 @@ std::vector<GridKind> readGrids(const SceneText& scene, const toml::node& node) 
 }
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(text, table, "[convert]", {"dim", "voxel_size", "grids", "weld", "strict"});
+  requireKnownKeys(text, table, "[convert]",
+                   {"dim", "voxel_size", "grids", "until", "weld", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -135,6 +148,7 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
     if (scene.dim) text.fail(*size, "dim and voxel_size cannot both be given");
   }
   if (const auto* grids = table.get("grids")) scene.grids = readGrids(text, *grids);
+  if (const auto* until = table.get("until")) scene.until = readStopRule(text, *until);
   if (const auto* weld = table.get("weld")) {
     scene.weldTolerance = requireNumber(text, *weld, "weld");
     if (*scene.weldTolerance < 0) text.fail(*weld, "weld must be 0 or more");
@@ -262,13 +276,14 @@ SmoothingOptions readSmoothing(const SceneText& text, const toml::table& table, 
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[[object]]",
                    {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
-                    "interpolate_vertices"});
+                    "interpolate_vertices", "until"});
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
   if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");
   object.mesh = readObjectMesh(text, table, scene);
   if (const auto* transform = table.get("transform")) transformMesh(text, *transform, object.mesh);
   object.smoothing = readSmoothing(text, table, object.mesh.pointCount());
+  if (const auto* until = table.get("until")) object.until = readStopRule(text, *until);
   return object;
 }
 

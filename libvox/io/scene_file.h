@@ -3,6 +3,7 @@
 #include "libvox/grid/grid_kind.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/mesh/smoothing.h"
+#include "libvox/mesh/stop_rule.h"
 
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,7 @@ struct SceneObject {
   std::string name;
   PolygonMesh mesh;  ///< world units, the object's transform applied
   SmoothingOptions smoothing = {};
+  std::optional<StopRule> until = {};
 };
 
 /// What to convert, and how, as far as the scene says.
@@ -24,6 +26,7 @@ struct Scene {
   std::optional<std::vector<GridKind>> grids;
   std::optional<double> weldTolerance;       ///< [convert] weld: world units
   std::optional<bool> strict;                ///< [convert] strict: no repair
+  std::optional<StopRule> until;             ///< [convert] until: of objects that say nothing
   std::vector<SceneObject> objects;          ///< at least one
   std::vector<std::filesystem::path> files;  ///< the input file, then the meshes it names
   std::string inputHash;  ///< of the contents of these files; empty if there are none

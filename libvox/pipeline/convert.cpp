@@ -13,6 +13,7 @@
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/pipeline/work.h"
@@ -86,6 +87,26 @@ void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, Conv
                               " separate faces, each smoothed by itself" + kWhy);
 }
 
+// Where to stop
+
+StopRule stopRuleOf(const SceneObject& object, const Scene& scene, const ConvertOptions& options) {
+  for (const auto& said : {options.until, object.until, scene.until})
+    if (said) return *said;
+  return {};
+}
+
+void requireStopRules(const Scene& scene, const ConvertOptions& options) {
+  for (const SceneObject& object : scene.objects) {
+    const StopRule until = stopRuleOf(object, scene, options);
+    if (until.levels && (*until.levels < 0 || *until.levels > kMostLevels))
+      throw UsageError("the number of levels must lie between 0 and " +
+                       std::to_string(kMostLevels) + ", not " + std::to_string(*until.levels));
+    if (!until.levels && options.separation == Separation::k26)
+      throw UsageError(object.name +
+                       ": --separating 26 needs polygons; give --until levels=K with it");
+  }
+}
+
 // Memory of grids
 
 /// Bytes of a tree of floats with the nodes of a mask.
@@ -101,27 +122,40 @@ std::uint64_t bytesOfDensity(const openvdb::MaskTree& mask) {
 constexpr const char* kScattered =
     "the model is scattered over much space: use larger voxels, or raise --max-memory";
 
-/// Bytes of mask nodes for a surface: 1.5 leaves per 64 square voxels, averaged over directions,
-/// and 1.5 inner nodes per 16384.
-double bytesOfMask(double area) {
-  using Leaf = openvdb::MaskTree::LeafNodeType;
-  using Lower = openvdb::MaskTree::RootNodeType::ChildNodeType::ChildNodeType;
-  return 1.5 * area * (sizeof(Leaf) / 64.0 + sizeof(Lower) / 16384.0);
+/// Bytes of nodes per square voxel of a surface: 1.5 leaves per 64 and 1.5 inner nodes per 16384,
+/// averaged over directions.
+template <class TreeT>
+double bytesPerArea(double valueBytes) {
+  using Leaf = typename TreeT::LeafNodeType;
+  using Lower = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
+  return 1.5 * ((sizeof(Leaf) + Leaf::SIZE * valueBytes) / 64 + sizeof(Lower) / 16384.0);
+}
+
+double bytesOfGrids(double area, std::span<const GridKind> kinds) {
+  double perArea = bytesPerArea<openvdb::MaskTree>(0);
+  for (const GridKind kind : kinds)
+    if (kind == GridKind::kDensity) perArea += bytesPerArea<openvdb::FloatTree>(sizeof(float));
+  return area * perArea;
 }
 
 /// Refuses a surface that cannot fit, before the work starts, and says which resolution would. The
-/// area of the control mesh is more than that of the surface, but less than twice for most.
-void requireMaskFits(const PolygonMesh& controlMesh, const GridTransform& transform,
-                     double longestSide, const MemoryBudget& budget) {
-  const double bytes = bytesOfMask(areaOf(controlMesh));
+/// surface has about the area of the control mesh; far less where it shrinks from a free boundary,
+/// so nothing is refused there.
+void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kinds,
+                     const GridTransform& transform, double longestSide,
+                     const MemoryBudget& budget) {
+  const auto& twin = base.adjacency.twin;
+  const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
+  if (open && base.boundary == BoundaryStage::kPlain) return;
+  const double bytes = bytesOfGrids(areaOf(base.mesh), kinds);
   constexpr double kCertain = 4;
   const double left = static_cast<double>(budget.left());
   if (bytes <= kCertain * left) return;
   const double larger = std::sqrt(kCertain * bytes / left) * transform.voxelSize;
   std::ostringstream advice;
   advice.precision(3);
-  advice << "use --dim " << std::max(1.0, std::floor(longestSide / larger)) << " or --voxel-size "
-         << larger << ", or raise --max-memory";
+  advice << "use --dim " << static_cast<std::int64_t>(std::max(1.0, longestSide / larger))
+         << " or --voxel-size " << larger << ", or raise --max-memory";
   constexpr double kMostBytes = 1e18;
   budget.require(static_cast<std::uint64_t>(std::min(bytes, kMostBytes)), "the grid", advice.str());
 }
@@ -142,6 +176,7 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
   if (smoothing.interpolatedVertices)
     text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
   if (options.weldTolerance) text << " weld=" << *options.weldTolerance;
+  if (options.until) text << " until=" << stopRuleName(*options.until);
   return text.str();
 }
 
@@ -150,6 +185,7 @@ openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
   int levels = 0;
   for (const ObjectReport& object : report.objects) levels = std::max(levels, object.levels);
   const auto voxels = static_cast<openvdb::Int64>(report.activeVoxels);
+  const char* guarantee = options.separation == Separation::k26 ? "26-separating" : "6-separating";
   openvdb::MetaMap metadata;
   metadata.insertMeta("vox_version", openvdb::StringMetadata(version()));
   if (!scene.files.empty()) {
@@ -159,7 +195,7 @@ openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
   metadata.insertMeta("vox_options",
                       openvdb::StringMetadata(optionText(transform, scene, options)));
   metadata.insertMeta("vox_levels", openvdb::Int32Metadata(levels));
-  metadata.insertMeta("vox_guarantee", openvdb::StringMetadata("6-separating"));
+  metadata.insertMeta("vox_guarantee", openvdb::StringMetadata(guarantee));
   metadata.insertMeta("vox_active_voxels", openvdb::Int64Metadata(voxels));
   return metadata;
 }
@@ -228,8 +264,7 @@ void notePreparation(const PreparedObject& prepared, const GridTransform& transf
                      ObjectReport& part, ConvertReport& report) {
   part.interpolation = prepared.interpolation;
   report.warnings.insert(report.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
-  warnOfBoundary(part.name, prepared.base, report);
-  requireInRange(usedBox(prepared.base.mesh), transform);
+  requireInRange(usedBox(prepared.base.mesh), transform, part.name + ", once interpolated,");
 }
 
 /// What became of a surface, for the report.
@@ -243,9 +278,24 @@ void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
   }
 }
 
+/// Polygon conversion of an object, with a warning if its polygons are not what they should be.
+void convertPolygons(PreparedObject prepared, int levels, Separation separation,
+                     const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
+                     ObjectReport& part, std::vector<std::string>& warnings) {
+  markPolygons(std::move(prepared.base), levels, separation, budget, progress, grid, part.polygons);
+  part.levels = levels;
+  const std::uint64_t fanned = part.polygons.fanned;
+  if (fanned > 0)
+    warnings.push_back(part.name + ": " + std::to_string(fanned) +
+                       (fanned == 1 ? " polygon is" : " polygons are") +
+                       " folded or without area and became " + (fanned == 1 ? "a fan" : "fans") +
+                       " of triangles");
+}
+
 openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& options,
                                       const GridTransform& transform, double longestSide,
-                                      std::span<const double> areas, MemoryBudget& budget,
+                                      std::span<const double> areas,
+                                      std::span<const GridKind> kinds, MemoryBudget& budget,
                                       Progress& progress, ConvertReport& report) {
   SurfaceGrid grid(budget.left());
   for (const SceneObject& object : scene.objects) {
@@ -253,20 +303,27 @@ openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& 
     ObjectReport& part = report.objects.emplace_back();
     part.name = object.name;
     part.inputFaces = object.mesh.faceCount();
+    const StopRule until = stopRuleOf(object, scene, options);
     PreparedObject prepared;
     {
       progress.begin("prepare", workOfPreparing(object, options));
       const StageTimer timer(report.prepareSeconds);
       prepared = prepare(scene, object, options, budget, progress);
+      if (until.levels != 0) warnOfBoundary(part.name, prepared.base, report);
       notePreparation(prepared, transform, part, report);
       moveToIndexSpace(prepared.base.mesh, transform);
-      requireMaskFits(prepared.base.mesh, transform, longestSide, budget);
+      requireGridsFit(prepared.base, kinds, transform, longestSide, budget);
     }
     progress.begin("surface", workOfSurface(area, object.mesh.cornerCount()));
     const StageTimer timer(report.surfaceSeconds);
-    SurfaceReport surface;
-    markSurface(prepared.base, options.surface, budget, progress, grid, surface);
-    noteSurface(surface, part);
+    if (until.levels) {
+      convertPolygons(std::move(prepared), *until.levels, options.separation, budget, progress,
+                      grid, part, report.warnings);
+    } else {
+      SurfaceReport surface;
+      markSurface(prepared.base, options.surface, budget, progress, grid, surface);
+      noteSurface(surface, part);
+    }
     part.activeVoxels = grid.countVoxels() - report.activeVoxels;
     report.activeVoxels += part.activeVoxels;
   }
@@ -293,7 +350,7 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
   plan(scene, options, areas, kinds, progress);
   result.report.voxelSize = transform.voxelSize;
   const openvdb::MaskGrid::Ptr mask = convertObjects(scene, options, transform, box.longestSide(),
-                                                     areas, budget, progress, result.report);
+                                                     areas, kinds, budget, progress, result.report);
 
   progress.begin("grids", workOfGrids(areas, kinds));
   const StageTimer timer(result.report.gridsSeconds);
@@ -311,6 +368,7 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
 }  // namespace
 
 Conversion convert(const Scene& scene, const ConvertOptions& options) {
+  requireStopRules(scene, options);
   requireValidScene(scene);
   Progress unwatched;
   Progress& progress = options.run.progress != nullptr ? *options.run.progress : unwatched;

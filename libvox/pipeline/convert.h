@@ -2,6 +2,8 @@
 
 #include "libvox/grid/grid_kind.h"
 #include "libvox/io/scene_file.h"
+#include "libvox/mesh/stop_rule.h"
+#include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
 #include "libvox/pipeline/surface.h"
@@ -33,6 +35,8 @@ struct ConvertOptions : PreparationOptions {
   std::optional<int> dim;           ///< voxels along the longest side of the input; default 256
   std::optional<double> voxelSize;  ///< world units; overrides dim
   std::optional<std::vector<GridKind>> grids;  ///< default: density
+  std::optional<StopRule> until;               ///< default: voxel
+  Separation separation = Separation::k6;      ///< k26 needs polygons: until levels
   SurfaceOptions surface;
   RunOptions run;
 };
@@ -48,6 +52,7 @@ struct ObjectReport {
   std::uint64_t vertices = 0;         ///< vertices rounded to voxels, each at its own level
   LevelCounts verticesOfLevel{};      ///< how many of them at each level
   std::uint64_t activeVoxels = 0;     ///< that no object before it has
+  PolygonReport polygons;             ///< of an object that stops at a level
   InterpolationReport interpolation;  ///< its residual in world units
 };
 
@@ -68,12 +73,14 @@ struct Conversion {
 };
 
 /// Smooths every object of a scene by Doo-Sabin subdivision and converts it into shared OpenVDB
-/// grids. Each is subdivided until its faces meet the vertex-conversion criterion, so the active
-/// voxels 6-separate the two sides of each surface. Grids carry the metadata of DESIGN section 9.
-/// The result does not depend on the number of threads, nor on how the surface is cut into
-/// submeshes. The progress keeps a share for writing the grids.
+/// grids. An object is subdivided until its faces meet the vertex-conversion criterion, or a number
+/// of times (0: not at all) and its polygons scanned; either way the active voxels 6-separate the
+/// two sides of each surface, or 26-separate them if that is asked for. Grids carry the metadata of
+/// DESIGN section 9. The result does not depend on the number of threads, nor on how the surface is
+/// cut into submeshes. The progress keeps a share for writing the grids.
 ///
-/// @throws UsageError  dim, voxel size, number of threads, smoothing or weld tolerance is nonsense
+/// @throws UsageError  dim, voxel size, number of threads, levels, smoothing or weld tolerance is
+///   nonsense; 26-separating voxels are asked for where an object is not to stop at a level
 /// @throws InputError  the input has no extent and no voxel size is given
 /// @throws MeshError   as prepare (refine.h)
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid

@@ -108,18 +108,6 @@ double partOfStep(int k, int levels) {
   return 3 * std::ldexp(1.0, 2 * (k - 1)) / (std::ldexp(1.0, 2 * levels) - 1);
 }
 
-SubdivisionLevel subdivided(SubdivisionLevel level, int levels, const MemoryBudget& budget,
-                            Progress& progress) {
-  for (int k = 1; k <= levels; ++k) {
-    progress.check();
-    budget.require(bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level),
-                   "level " + std::to_string(k), kAdvice);
-    level = nextLevel(level, imageVertices(level));
-    progress.done(partOfStep(k, levels));
-  }
-  return level;
-}
-
 void append(PolygonMesh& all, PolygonMesh part) {
   if (std::uint64_t{all.cornerCount()} + part.cornerCount() >= kNone ||
       std::uint64_t{all.pointCount()} + part.pointCount() >= kNone)
@@ -166,7 +154,7 @@ Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& p
     progress.begin("prepare", work.prepare);
     PreparedObject prepared = prepare(scene, object, preparation, budget, progress);
     progress.begin("subdivide", work.subdivide);
-    PolygonMesh part = subdivided(std::move(prepared.base), levels, budget, progress).mesh;
+    PolygonMesh part = subdividedWithin(budget, std::move(prepared.base), levels, progress).mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
     budget.take(2 * bytesOf(part), "the refined mesh", kAdvice);
@@ -200,6 +188,18 @@ std::uint64_t bytesOfNextTopology(const SubdivisionLevel& level) {
   constexpr std::uint64_t kTables = 6 * sizeof(Index);
   constexpr std::uint64_t kCorner = 4 * sizeof(Index);  // vertex, twin, face; offsets, rounded up
   return level.mesh.cornerCount() * kTables + nextCornerCount(level) * kCorner;
+}
+
+SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel level, int levels,
+                                  Progress& progress) {
+  for (int k = 1; k <= levels; ++k) {
+    progress.check();
+    budget.require(bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level),
+                   "level " + std::to_string(k), kAdvice);
+    level = nextLevel(level, imageVertices(level));
+    progress.done(partOfStep(k, levels));
+  }
+  return level;
 }
 
 void requireValidScene(const Scene& scene) {

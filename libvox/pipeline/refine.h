@@ -54,6 +54,11 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
 /// Whether an object interpolates anything, by its own smoothing.
 bool interpolates(const SmoothingOptions& own);
 
+/// K Doo-Sabin steps.
+/// @throws LimitError  a level does not fit into the budget, or has 2^32 - 1 corners or more
+SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel level, int levels,
+                                  Progress& progress);
+
 /// Checks the arrays of every object (requireValidArrays), naming file and object.
 void requireValidScene(const Scene& scene);
 

@@ -30,13 +30,12 @@ double workOfWritingDensity(double area) {
 }
 
 double areaOf(const PolygonMesh& mesh, Index face) {
-  double twice = 0;
+  Vec3d twice = Vec3d::Zero();
   const auto vertices = mesh.face(face);
   for (std::size_t i = 1; i + 1 < vertices.size(); ++i)
     twice += (mesh.points[vertices[i]] - mesh.points[vertices[0]])
-                 .cross(Vec3d(mesh.points[vertices[i + 1]] - mesh.points[vertices[0]]))
-                 .norm();
-  return twice / 2;
+                 .cross(Vec3d(mesh.points[vertices[i + 1]] - mesh.points[vertices[0]]));
+  return twice.norm() / 2;
 }
 
 double areaOf(const PolygonMesh& mesh) {

@@ -22,7 +22,7 @@ double workOfDensity(double area);
 double workOfWritingMask(double area);
 double workOfWritingDensity(double area);
 
-/// Area of a face as a fan, in the square of whatever the unit of the points is.
+/// Area of a face by its average normal, in the square of whatever the unit of the points is.
 double areaOf(const PolygonMesh& mesh, Index face);
 /// Of all faces.
 double areaOf(const PolygonMesh& mesh);

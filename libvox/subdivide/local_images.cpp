@@ -72,8 +72,8 @@ Vec3d LocalImages::imageAt(Index corner) {
 
 /// Lists the corners around a vertex in fan_, from a start that does not depend on the corner it
 /// begins to search at: the lowest one, or the first one of an open fan.
-/// @return 1 for a closed fan
-Index LocalImages::findFan(Index corner) {
+/// @return whether the fan is closed
+bool LocalImages::findFan(Index corner) {
   const auto walk = [&](Index start) {
     fan_.clear();
     Index c = start;
@@ -85,17 +85,17 @@ Index LocalImages::findFan(Index corner) {
   };
   if (walk(corner)) {
     std::rotate(fan_.begin(), std::min_element(fan_.begin(), fan_.end()), fan_.end());
-    return 1;
+    return true;
   }
   for (Index c = corner; c != kNone; c = previousAroundVertex(base_.mesh, base_.adjacency, c))
     corner = c;
   walk(corner);
-  return 0;
+  return false;
 }
 
 void LocalImages::addStar(Index corner) {
   Star star;
-  star.closed = findFan(corner) != 0;
+  star.closed = findFan(corner);
   star.begin = static_cast<Index>(starPoints_.size());
   star.fan = star.size = static_cast<Index>(fan_.size());
   const auto number = static_cast<Index>(stars_.size());

@@ -21,10 +21,9 @@ class LocalImages {
     Index size = 0;   ///< n; with m = 1, or without a V-face (at a free boundary), the fan itself
     Index fan = 0;    ///< m, real corners
     bool closed = false;
-    double diameter = 0;  ///< of its real half, with the two points on the boundary
-    Vec3d mStart = Vec3d::Zero(),
-          mEnd =
-              Vec3d::Zero();  ///< those points: Chaikin points of the edges that leave and arrive
+    double diameter = 0;           ///< of its real half, with the two points on the boundary
+    Vec3d mStart = Vec3d::Zero();  ///< the point on the boundary edge that leaves
+    Vec3d mEnd = Vec3d::Zero();    ///< and on the one that arrives
   };
   /// The level-1 face across the edge of a corner, or the mirrored half face at an extended
   /// boundary.
@@ -67,7 +66,7 @@ class LocalImages {
   Vec3d imageAt(Index corner);
   void addFace(Index f);
   void addStar(Index corner);
-  Index findFan(Index corner);
+  bool findFan(Index corner);
   void closeFan(Star& star);
   void addEdge(Index slot, Index corner);
 

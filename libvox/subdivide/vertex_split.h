@@ -4,19 +4,23 @@
 
 namespace vox {
 
+// clang-format off
 /// One Doo-Sabin step at a vertex i of an n-gon F, seen from outside:
 ///
-///     F(i-1) ---- F ---- F(i+1)          Images in the face F: f0 at i, fNext at i+1, fPrevious at
-///        |        |         |            i-1, and fOpposite if F is a quad. In the quad R across
-///        the |   L    i    R    |            edge i, i+1: r[0] at i, r[1] at i+1, then on around.
-///        In the
-///      l[2] --- l[3] r[3]--r[2]          quad L across i-1, i: l[0] at i, l[1] at i-1, then on
-///                  K                     around. In the face K on the far side: k0 at i, kRight
-///                  and
-///                                        kLeft at its neighbours in R and L, kOpposite if K is a
-///                                        quad.
+///   F(i-1) ------ F ------ F(i+1)
+///      |          |          |
+///      |    L     i    R     |
+///      |          |          |
+///    l[2] ---- l[3] r[3] -- r[2]
+///               K
+///
+/// Images in the face F: f0 at i, fNext at i+1, fPrevious at i-1, and fOpposite if F is a quad. In the
+/// quad R across the edge i, i+1: r[0] at i, r[1] at i+1, then on around. In the quad L across the edge
+/// i-1, i: l[0] at i, l[1] at i-1, then on around. In the face K on the far side: k0 at i, kRight and
+/// kLeft at its neighbours in R and L, and kOpposite if K is a quad.
 ///
 /// F is where u and v grow, K where both fall; R lies at u+, v-, and L at u-, v+.
+// clang-format on
 struct VertexSplit {
   Vec3d f0, fNext, fPrevious;
   Vec3d fOpposite = Vec3d::Zero();

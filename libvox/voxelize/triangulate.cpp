@@ -1,0 +1,271 @@
+// Triangulation of polygons (Cohen, Kaufman & Wang 1994, section 7): ear clipping (Meisters 1975)
+// against the average normal (Newell), where an ear's prism along the normal holds no other vertex.
+// Corners are projected along the normal onto a lattice of 51 bits; from there on, orientation is
+// exact. A grid finds the vertices near an ear. An ear that a vertex blocks waits for that vertex
+// to become convex, so ears are tried again only when that may help.
+
+#include "libvox/voxelize/triangulate.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace vox {
+namespace {
+
+__extension__ using Int128 = __int128;
+
+constexpr double kLatticeReach = 1LL << 50;  // cross products stay below 2^105
+
+/// A position seen along the normal.
+struct Flat {
+  std::int64_t x, y;
+  bool operator==(const Flat&) const = default;
+};
+
+/// > 0 if a, b, c turn left, < 0 right, 0 if they lie on a line.
+Int128 turn(const Flat& a, const Flat& b, const Flat& c) {
+  return Int128{b.x - a.x} * (c.y - a.y) - Int128{b.y - a.y} * (c.x - a.x);
+}
+
+/// Twice the area vector; does not depend on where the polygon lies.
+Vec3d newellNormal(std::span<const Vec3d> corners) {
+  Vec3d normal = Vec3d::Zero();
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    normal += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+  return normal;
+}
+
+/// The corners seen against the normal, counter-clockwise, at most kLatticeReach from corner 0.
+std::vector<Flat> flattened(std::span<const Vec3d> corners) {
+  Vec3d normal = newellNormal(corners).stableNormalized();
+  if (!(normal.squaredNorm() > 0.5)) normal = Vec3d::UnitZ();  // no area: any will do
+  const Vec3d right = normal.unitOrthogonal();
+  const Vec3d up = normal.cross(right);
+  double reach = 0;
+  for (const Vec3d& corner : corners)
+    reach = std::max(reach, (corner - corners[0]).lpNorm<Eigen::Infinity>());
+  // A position projects onto a unit vector with at most sqrt(3) of its largest coordinate.
+  const double scale = reach > 0 ? kLatticeReach / (2 * reach) : 0;
+  std::vector<Flat> flat;
+  flat.reserve(corners.size());
+  for (const Vec3d& corner : corners) {
+    const Vec3d offset = scale * (corner - corners[0]);
+    flat.push_back({std::llrint(right.dot(offset)), std::llrint(up.dot(offset))});
+  }
+  return flat;
+}
+
+/// How good an ear is: first its smallest angle, in coarse steps, then its short diagonal. (By
+/// angle alone, ears of round polygons are all alike and would follow one another around, in a
+/// fan.)
+struct Shape {
+  int sharpness;  ///< 256 sin(smallest angle)
+  double diagonal;
+  bool operator==(const Shape&) const = default;
+  bool worseThan(const Shape& other) const {
+    return sharpness != other.sharpness ? sharpness < other.sharpness : diagonal > other.diagonal;
+  }
+};
+
+Shape shapeOf(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  std::array<double, 3> sides = {(b - a).norm(), (c - b).norm(), (a - c).norm()};
+  const double diagonal = sides[2];
+  std::sort(sides.begin(), sides.end());
+  const double longer = sides[1] * sides[2];
+  const double sine = longer > 0 ? (b - a).cross(c - a).norm() / longer : 0;
+  return {static_cast<int>(256 * sine), diagonal};
+}
+
+/// Buckets of vertices on a square grid of about one per cell.
+class VertexGrid {
+ public:
+  explicit VertexGrid(const std::vector<Flat>& vertices) {
+    low_ = vertices[0];
+    Flat high = vertices[0];
+    for (const Flat& v : vertices) {
+      low_ = {std::min(low_.x, v.x), std::min(low_.y, v.y)};
+      high = {std::max(high.x, v.x), std::max(high.y, v.y)};
+    }
+    columns_ = static_cast<std::int64_t>(std::sqrt(static_cast<double>(vertices.size()))) + 1;
+    cell_ = std::max(high.x - low_.x, high.y - low_.y) / columns_ + 1;
+    starts_.assign(static_cast<std::size_t>(columns_ * columns_) + 1, 0);
+    for (const Flat& v : vertices)
+      ++starts_[cellOf(column(v.x - low_.x), column(v.y - low_.y)) + 1];
+    for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+    vertices_.resize(vertices.size());
+    std::vector<Index> next(starts_.begin(), starts_.end() - 1);
+    for (Index i = 0; i < vertices.size(); ++i) {
+      const Flat& v = vertices[i];
+      vertices_[next[cellOf(column(v.x - low_.x), column(v.y - low_.y))]++] = i;
+    }
+  }
+
+  /// First vertex in the cells of a box that `wanted` accepts, or kNone.
+  template <class Wanted>
+  Index find(const Flat& low, const Flat& high, Wanted&& wanted) const {
+    for (std::int64_t y = column(low.y - low_.y); y <= column(high.y - low_.y); ++y)
+      for (std::int64_t x = column(low.x - low_.x); x <= column(high.x - low_.x); ++x) {
+        const std::size_t cell = cellOf(x, y);
+        for (Index k = starts_[cell]; k < starts_[cell + 1]; ++k)
+          if (wanted(vertices_[k])) return vertices_[k];
+      }
+    return kNone;
+  }
+
+ private:
+  std::int64_t column(std::int64_t offset) const { return offset / cell_; }
+  std::size_t cellOf(std::int64_t x, std::int64_t y) const {
+    return static_cast<std::size_t>(y * columns_ + x);
+  }
+
+  Flat low_;
+  std::int64_t columns_, cell_;
+  std::vector<Index> starts_;  ///< of the cells' vertices
+  std::vector<Index> vertices_;
+};
+
+class EarClipper {
+ public:
+  explicit EarClipper(std::span<const Vec3d> corners)
+      : corners_(corners),
+        flat_(flattened(corners)),
+        grid_(flat_),
+        vertices_(corners.size()),
+        waiting_(corners.size()) {
+    const auto n = static_cast<Index>(corners.size());
+    for (Index i = 0; i < n; ++i) vertices_[i] = {(i + n - 1) % n, (i + 1) % n};
+    for (Index i = 0; i < n; ++i) vertices_[i].convex = turnAt(i) > 0;
+    for (Index i = 0; i < n; ++i) tryEar(i);
+  }
+
+  /// Whether ears were found to the end.
+  bool clip(std::vector<std::array<Index, 3>>& triangles) {
+    auto left = corners_.size();
+    while (left > 3 && !ears_.empty()) {
+      const Ear ear = ears_.top();
+      ears_.pop();
+      Vertex& tip = vertices_[ear.tip];
+      if (tip.gone || tip.version != ear.version) continue;
+      triangles.push_back({tip.before, ear.tip, tip.after});
+      tip.gone = true;
+      vertices_[tip.before].after = tip.after;
+      vertices_[tip.after].before = tip.before;
+      --left;
+      changed(tip.before);
+      changed(tip.after);
+    }
+    return fan(triangles);
+  }
+
+ private:
+  struct Vertex {
+    Index before = 0, after = 0;
+    Index version = 0;  ///< counts its triangles
+    bool convex = false;
+    bool gone = false;
+  };
+  struct Ear {
+    Shape shape;
+    Index tip;
+    Index version;
+    bool operator<(const Ear& other) const {
+      return shape == other.shape ? tip > other.tip : shape.worseThan(other.shape);
+    }
+  };
+
+  Int128 turnAt(Index i) const {
+    return turn(flat_[vertices_[i].before], flat_[i], flat_[vertices_[i].after]);
+  }
+
+  void changed(Index i) {
+    ++vertices_[i].version;
+    vertices_[i].convex = turnAt(i) > 0;
+    tryEar(i);
+    if (!vertices_[i].convex) return;
+    const auto waiting = std::move(waiting_[i]);
+    waiting_[i].clear();
+    for (const Ear& ear : waiting)
+      if (!vertices_[ear.tip].gone && vertices_[ear.tip].version == ear.version) tryEar(ear.tip);
+  }
+
+  void tryEar(Index tip) {
+    const Vertex& v = vertices_[tip];
+    if (!v.convex) return;
+    const Index blocker = blockerOf(tip);
+    const Ear ear = {shapeOf(corners_[v.before], corners_[tip], corners_[v.after]), tip, v.version};
+    if (blocker == kNone)
+      ears_.push(ear);
+    else
+      waiting_[blocker].push_back(ear);
+  }
+
+  /// A vertex in the closed triangle at `tip`. If there is any, there is one that is not convex.
+  Index blockerOf(Index tip) const {
+    const Flat& a = flat_[vertices_[tip].before];
+    const Flat& b = flat_[tip];
+    const Flat& c = flat_[vertices_[tip].after];
+    const Flat low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
+    const Flat high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
+    return grid_.find(low, high, [&](Index i) {
+      const Flat& p = flat_[i];
+      if (vertices_[i].convex || vertices_[i].gone) return false;
+      if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y) return false;
+      if (p == a || p == b || p == c) return false;  // the triangle's own, or one that touches it
+      return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+    });
+  }
+
+  /// Fans what is left; false if it was more than a triangle.
+  bool fan(std::vector<std::array<Index, 3>>& triangles) const {
+    const auto first = static_cast<Index>(
+        std::find_if(vertices_.begin(), vertices_.end(), [](const Vertex& v) { return !v.gone; }) -
+        vertices_.begin());
+    Index b = vertices_[first].after;
+    Index c = vertices_[b].after;
+    const bool single = vertices_[c].after == first;
+    for (; c != first; b = c, c = vertices_[c].after) triangles.push_back({first, b, c});
+    return single;
+  }
+
+  std::span<const Vec3d> corners_;
+  std::vector<Flat> flat_;
+  VertexGrid grid_;
+  std::vector<Vertex> vertices_;
+  std::vector<std::vector<Ear>> waiting_;  ///< by the vertex that blocks them
+  std::priority_queue<Ear> ears_;
+};
+
+/// Whether ears were found.
+bool splitQuad(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>& triangles) {
+  const Vec3d normal = newellNormal(corners);
+  const auto turnsLeft = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return (corners[b] - corners[a]).cross(corners[c] - corners[a]).dot(normal) > 0;
+  };
+  const bool even = turnsLeft(0, 1, 2) && turnsLeft(2, 3, 0);  // diagonal 0-2 lies inside
+  const bool odd = turnsLeft(1, 2, 3) && turnsLeft(3, 0, 1);
+  const bool evenShorter =
+      (corners[2] - corners[0]).squaredNorm() <= (corners[3] - corners[1]).squaredNorm();
+  if (even == odd ? evenShorter : even)
+    triangles.insert(triangles.end(), {{0, 1, 2}, {0, 2, 3}});
+  else
+    triangles.insert(triangles.end(), {{0, 1, 3}, {1, 2, 3}});
+  return even || odd;
+}
+
+}  // namespace
+
+void triangulate(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>& triangles,
+                 TriangulationReport& report) {
+  if (corners.size() < 3) return;
+  if (corners.size() == 3)
+    triangles.push_back({0, 1, 2});
+  else if (corners.size() == 4)
+    report.fanned += !splitQuad(corners, triangles);
+  else
+    report.fanned += !EarClipper(corners).clip(triangles);
+}
+
+}  // namespace vox

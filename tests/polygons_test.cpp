@@ -1,0 +1,336 @@
+#include "libvox/pipeline/polygons.h"
+
+#include "libvox/core/error.h"
+#include "libvox/pipeline/convert.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "tests/reference.h"
+#include "tests/shapes.h"
+
+#include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+using namespace vox;
+using Catch::Contains;
+using openvdb::Coord;
+
+namespace {
+
+Scene sceneOf(const PolygonMesh& mesh) {
+  Scene scene;
+  scene.objects.push_back({"object", mesh});
+  return scene;
+}
+
+ConvertOptions polygonsAt(double voxelSize, int levels, Separation separation) {
+  ConvertOptions options;
+  options.voxelSize = voxelSize;
+  options.grids = std::vector{GridKind::kMask};
+  options.until = StopRule{levels};
+  options.separation = separation;
+  return options;
+}
+
+const openvdb::MaskGrid& maskOf(const Conversion& conversion) {
+  return dynamic_cast<const openvdb::MaskGrid&>(*conversion.grids.at(0));
+}
+
+std::string metadataOf(const Conversion& conversion, const std::string& name) {
+  return conversion.grids.at(0)->metaValue<std::string>(name);
+}
+
+std::string bytesOf(const Conversion& conversion) {
+  std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
+  writeGrids(stream, conversion);
+  return stream.str();
+}
+
+int largest(const Coord& c) {
+  return std::max({std::abs(c.x()), std::abs(c.y()), std::abs(c.z())});
+}
+
+/// How many coordinates have that size.
+int countOf(const Coord& c, int size) {
+  return (std::abs(c.x()) == size) + (std::abs(c.y()) == size) + (std::abs(c.z()) == size);
+}
+
+/// Checks that exactly the voxels of a cube around 0 of which isBlack says so are active.
+template <class IsBlack>
+void checkVoxels(const openvdb::MaskGrid& mask, int side, std::uint64_t count, IsBlack&& isBlack) {
+  CHECK(mask.activeVoxelCount() == count);
+  std::size_t wrong = 0;
+  for (const Coord& c : openvdb::CoordBBox::createCube(Coord(-side), 2 * side + 1))
+    wrong += mask.tree().isValueOn(c) != isBlack(c);
+  CHECK(wrong == 0);
+}
+
+/// Whether a path of white voxels, with steps to 6 or 26 neighbours, leads from outside to a voxel.
+bool isOpen(const openvdb::MaskGrid& mask, Separation steps, const Coord& to) {
+  openvdb::CoordBBox box = mask.evalActiveVoxelBoundingBox();
+  box.expand(1);
+  openvdb::MaskTree reached;
+  std::vector<Coord> open = {box.min()};
+  reached.setValueOn(box.min());
+  while (!open.empty()) {
+    const Coord at = open.back();
+    open.pop_back();
+    if (at == to) return true;
+    for (const Coord& step : openvdb::CoordBBox::createCube(Coord(-1), 3)) {
+      const Coord next = at + step;
+      if (steps == Separation::k6 && countOf(step, 1) != 1) continue;
+      if (!box.isInside(next) || mask.tree().isValueOn(next) || reached.isValueOn(next)) continue;
+      reached.setValueOn(next);
+      open.push_back(next);
+    }
+  }
+  return false;
+}
+
+/// Active voxels of one mask without an active voxel of the other within `reach` (L-inf).
+std::size_t farVoxels(const openvdb::MaskGrid& from, const openvdb::MaskGrid& to, int reach) {
+  std::size_t far = 0;
+  for (auto voxel = from.cbeginValueOn(); voxel; ++voxel) {
+    bool near = false;
+    for (const Coord& step : openvdb::CoordBBox::createCube(Coord(-reach), 2 * reach + 1))
+      near = near || to.tree().isValueOn(voxel.getCoord() + step);
+    far += !near;
+  }
+  return far;
+}
+
+/// A block 12 x 8 x 6 with a slot 4 wide and 5 deep: two concave faces of 8 corners. Whole numbers.
+PolygonMesh slottedBlock() {
+  const std::vector<std::pair<int, int>> outline = {{-6, -4}, {6, -4},  {6, 4},  {2, 4},
+                                                    {2, -1},  {-2, -1}, {-2, 4}, {-6, 4}};
+  PolygonMesh mesh;
+  std::vector<Index> bottom;
+  std::vector<Index> top;
+  for (Index i = 0; i < 8; ++i) {
+    mesh.points.emplace_back(outline[i].first, outline[i].second, -3);
+    mesh.points.emplace_back(outline[i].first, outline[i].second, 3);
+    bottom.insert(bottom.begin(), 2 * i);
+    top.push_back(2 * i + 1);
+  }
+  mesh.addFace(bottom);
+  mesh.addFace(top);
+  for (Index i = 0; i < 8; ++i) {
+    const Index next = (i + 1) % 8;
+    mesh.addFace(std::vector<Index>{2 * i, 2 * next, 2 * next + 1, 2 * i + 1});
+  }
+  return mesh;
+}
+
+bool inSlottedBlock(const Coord& c) {
+  const bool inBlock = std::abs(c.x()) <= 6 && std::abs(c.y()) <= 4 && std::abs(c.z()) <= 3;
+  return inBlock && !(std::abs(c.x()) < 2 && c.y() > -1);
+}
+
+}  // namespace
+
+TEST_CASE("a cube as it is has the voxels of its six faces", "[polygons][golden]") {
+  const auto convertCube = [](double halfSide, Separation separation) {
+    return convert(sceneOf(test::cube()), polygonsAt(1 / halfSide, 0, separation));
+  };
+  // The faces pass through voxel centres.
+  for (const Separation separation : {Separation::k6, Separation::k26}) {
+    const Conversion conversion = convertCube(4, separation);
+    checkVoxels(maskOf(conversion), 6, 9 * 9 * 9 - 7 * 7 * 7,
+                [](const Coord& c) { return largest(c) == 4; });
+    CHECK(conversion.report.objects[0].polygons.triangles == 12);
+    CHECK(conversion.report.objects[0].levels == 0);
+  }
+  // The edges are nearer than 1/2 to voxels whose centres they do not reach.
+  checkVoxels(maskOf(convertCube(3.75, Separation::k6)), 6, 6 * 7 * 7,
+              [](const Coord& c) { return largest(c) == 4 && countOf(c, 4) == 1; });
+  checkVoxels(maskOf(convertCube(3.75, Separation::k26)), 6, 9 * 9 * 9 - 7 * 7 * 7,
+              [](const Coord& c) { return largest(c) == 4; });
+  // The faces are those of voxels: both sides are met.
+  checkVoxels(
+      maskOf(convertCube(3.5, Separation::k6)), 6, 6 * 7 * 7 + 7 * 7 * 7 - 5 * 5 * 5,
+      [](const Coord& c) { return largest(c) == 3 || (largest(c) == 4 && countOf(c, 4) == 1); });
+  checkVoxels(maskOf(convertCube(3.5, Separation::k26)), 6, 9 * 9 * 9 - 5 * 5 * 5,
+              [](const Coord& c) { return largest(c) == 3 || largest(c) == 4; });
+}
+
+TEST_CASE("concave faces are filled and no farther", "[polygons][golden]") {
+  const Separation separation = GENERATE(Separation::k6, Separation::k26);
+  const Conversion conversion = convert(sceneOf(slottedBlock()), polygonsAt(1, 0, separation));
+  // Lattice points on the surface of a solid of whole numbers: those with a neighbour outside.
+  std::uint64_t count = 0;
+  const auto isBlack = [&](const Coord& c) {
+    bool surrounded = true;
+    for (const Coord& step : openvdb::CoordBBox::createCube(Coord(-1), 3))
+      surrounded = surrounded && inSlottedBlock(c + step);
+    return inSlottedBlock(c) && !surrounded;
+  };
+  for (const Coord& c : openvdb::CoordBBox::createCube(Coord(-8), 17)) count += isBlack(c);
+  checkVoxels(maskOf(conversion), 8, count, isBlack);
+  CHECK(conversion.report.objects[0].polygons.triangles == 2 * 6 + 8 * 2);
+  CHECK(conversion.report.objects[0].polygons.fanned == 0);
+}
+
+TEST_CASE("a prism of any number of sides has the voxels of its faces as fans",
+          "[polygons][property]") {
+  const int sides = GENERATE(3, 5, 8, 30);
+  const Separation separation = GENERATE(Separation::k6, Separation::k26);
+  CAPTURE(sides);
+  const PolygonMesh mesh = test::prism(sides);
+  const double voxelSize = 0.07;
+  const Conversion conversion = convert(sceneOf(mesh), polygonsAt(voxelSize, 0, separation));
+  // Convex faces, and flat ones also when their corners are snapped: each way to cut them is right.
+  std::vector<Vec3d> points;
+  for (const Vec3d& p : mesh.points) points.push_back(p / voxelSize);
+  openvdb::MaskTree expected;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t i = 2; i < face.size(); ++i) {
+      const std::array<Vec3d, 3> corners = {points[face[0]], points[face[i - 1]], points[face[i]]};
+      scanTriangle(corners, separation, [&](const VoxelBlock& block) {
+        forEachVoxel(block, [&](int x, int y, int z) { expected.setValueOn(Coord(x, y, z)); });
+      });
+    }
+  }
+  CHECK(maskOf(conversion).activeVoxelCount() == expected.activeVoxelCount());
+  CHECK(maskOf(conversion).tree().hasSameTopology(expected));
+}
+
+TEST_CASE("polygons of any level separate inside from outside as asked", "[polygons][property]") {
+  const int levels = GENERATE(0, 1, 3);
+  bool diagonalStepsLeak = false;
+  for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::prism(7)}) {
+    const Scene scene = sceneOf(mesh);
+    const Coord centre =
+        Coord::round(openvdb::Vec3d((test::centroid(mesh.points) / 0.09).eval().data()));
+    const Conversion six = convert(scene, polygonsAt(0.09, levels, Separation::k6));
+    const Conversion all = convert(scene, polygonsAt(0.09, levels, Separation::k26));
+    REQUIRE_FALSE(maskOf(all).tree().isValueOn(centre));
+    CHECK_FALSE(isOpen(maskOf(six), Separation::k6, centre));
+    CHECK_FALSE(isOpen(maskOf(all), Separation::k26, centre));
+    diagonalStepsLeak = diagonalStepsLeak || isOpen(maskOf(six), Separation::k26, centre);
+    CHECK(metadataOf(six, "vox_guarantee") == "6-separating");
+    CHECK(metadataOf(all, "vox_guarantee") == "26-separating");
+
+    PolygonMesh refined = subdivide(baseLevel(mesh), levels).mesh;
+    for (Vec3d& p : refined.points) p /= 0.09;
+    for (const Conversion* conversion : {&six, &all}) {
+      const test::Sides sides = test::sidesOf(refined, maskOf(*conversion));
+      CHECK(sides.leaks == 0);
+      CHECK(sides.inside > 0);
+    }
+  }
+  CHECK(diagonalStepsLeak);  // the check sees leaks
+}
+
+TEST_CASE("thread count never changes the voxels of polygons", "[polygons][parallel]") {
+  const Separation separation = GENERATE(Separation::k6, Separation::k26);
+  ConvertOptions options = polygonsAt(0.02, 3, separation);
+  options.run.threads = 1;
+  const Scene scene = sceneOf(test::torusGrid(12, 7));
+  const Conversion alone = convert(scene, options);
+  for (const int threads : {2, 8}) {
+    options.run.threads = threads;
+    const Conversion together = convert(scene, options);
+    CHECK(bytesOf(together) == bytesOf(alone));
+    CHECK(together.report.objects[0].polygons.triangles ==
+          alone.report.objects[0].polygons.triangles);
+  }
+}
+
+TEST_CASE("vertex conversion of a deep refinement stays within a voxel of its polygons",
+          "[polygons][property]") {
+  for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::pyramid(5)}) {
+    ConvertOptions options = polygonsAt(0.06, 0, Separation::k6);
+    options.until = StopRule();
+    const Conversion vertices = convert(sceneOf(mesh), options);
+    const int levels = vertices.report.objects[0].levels;
+    for (const Separation separation : {Separation::k6, Separation::k26}) {
+      const Conversion polygons = convert(sceneOf(mesh), polygonsAt(0.06, levels, separation));
+      CHECK(farVoxels(maskOf(vertices), maskOf(polygons), 1) == 0);
+      CHECK(farVoxels(maskOf(polygons), maskOf(vertices), 1) == 0);
+    }
+  }
+}
+
+TEST_CASE("options say where to stop before objects, objects before the scene", "[polygons]") {
+  Scene scene = sceneOf(test::cube());
+  scene.objects.push_back({"second", test::cube()});
+  scene.until = StopRule{1};
+  scene.objects[1].until = StopRule{2};
+  ConvertOptions options;
+  options.dim = 16;
+  const auto trianglesOf = [&](std::size_t object) {
+    return convert(scene, options).report.objects[object].polygons.triangles;
+  };
+  CHECK(trianglesOf(0) == 6 * 2 + 12 * 2 + 8);
+  CHECK(trianglesOf(1) == 18 * 2 + 8 + 48 * 2 + 24 * 2);
+  options.until = StopRule{0};
+  CHECK(trianglesOf(0) == 12);
+  CHECK(trianglesOf(1) == 12);
+  CHECK_THAT(metadataOf(convert(scene, options), "vox_options"), Contains("until=levels=0"));
+  options.until = StopRule();
+  const ConvertReport report = convert(scene, options).report;
+  CHECK(report.objects[0].polygons.triangles == 0);
+  CHECK(report.objects[0].vertices > 0);
+}
+
+TEST_CASE("one object may stay polygons while another is smoothed", "[polygons]") {
+  Scene scene = sceneOf(test::cube());
+  scene.objects.push_back({"smooth", test::cube()});
+  scene.objects[0].until = StopRule{0};
+  for (Vec3d& p : scene.objects[1].mesh.points) p += Vec3d(4, 0, 0);
+  ConvertOptions options = polygonsAt(0.25, 0, Separation::k6);
+  options.until.reset();
+  const Conversion conversion = convert(scene, options);
+  CHECK(maskOf(conversion).tree().isValueOn(Coord(4, 4, 4)));         // a corner of the first
+  CHECK_FALSE(maskOf(conversion).tree().isValueOn(Coord(20, 4, 4)));  // is rounded off the second
+  CHECK(maskOf(conversion).tree().isValueOn(Coord(20, 0, 0)));
+  options.separation = Separation::k26;
+  CHECK_THROWS_WITH(convert(scene, options), Contains("smooth") && Contains("--until levels=K"));
+}
+
+TEST_CASE("an open mesh left as it is does not shrink, and nobody says so", "[polygons]") {
+  ConvertOptions options = polygonsAt(0.1, 0, Separation::k6);
+  options.smoothing.boundary = BoundaryRule::kFree;
+  CHECK(convert(sceneOf(test::sheet(3, 3)), options).report.warnings.empty());
+  options.until = StopRule{1};
+  CHECK(convert(sceneOf(test::sheet(3, 3)), options).report.warnings.size() == 1);
+}
+
+TEST_CASE("polygons that fold become fans, with a warning", "[polygons]") {
+  // Its sides cross, and its halves turn opposite ways.
+  const PolygonMesh bow =
+      test::meshOf({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
+  const Conversion conversion = convert(sceneOf(bow), polygonsAt(0.05, 0, Separation::k6));
+  CHECK(conversion.report.objects[0].polygons.fanned == 1);
+  CHECK(conversion.report.objects[0].polygons.triangles == 2);
+  REQUIRE(conversion.report.warnings.size() == 1);
+  CHECK_THAT(conversion.report.warnings[0], Contains("object: 1 polygon is folded"));
+}
+
+TEST_CASE("polygons that cannot be had are refused", "[polygons][error]") {
+  const Scene scene = sceneOf(test::cube());
+  ConvertOptions options = polygonsAt(0.1, 0, Separation::k26);
+  for (const int levels : {-1, kMostLevels + 1}) {
+    options.until = StopRule{levels};
+    CHECK_THROWS_AS(convert(scene, options), UsageError);
+  }
+  options.until.reset();
+  CHECK_THROWS_WITH(convert(scene, options), Contains("give --until levels=K"));
+  options.until = StopRule{kMostLevels};
+  options.run.maxMemory = std::uint64_t{100} << 20U;
+  CHECK_THROWS_WITH(convert(scene, options), Contains("level") && Contains("use fewer levels"));
+}
+
+TEST_CASE("a grid of polygons keeps to the memory that the mesh leaves", "[polygons][error]") {
+  const SubdivisionLevel base = baseLevel(test::cube());
+  SurfaceGrid grid;
+  PolygonReport report;
+  Progress unwatched;
+  CHECK_THROWS_AS(
+      markPolygons(base, 0, Separation::k6, MemoryBudget(20000), unwatched, grid, report),
+      LimitError);
+}
