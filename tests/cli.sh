@@ -106,6 +106,9 @@ expect 2 'levels' subdivide good.obj -o out.obj
 expect 2 'levels' subdivide good.obj -o out.obj --levels -1
 expect 2 'out.vdb: .*\.obj' subdivide good.obj -o out.vdb --levels 1
 expect 2 'max-memory' convert good.obj -o out.vdb --max-memory lots
+expect 2 '(--force|convert).*maybe' convert good.obj -o out.vdb --dim=3 --force=maybe
+expect 2 'true or false: --strict=maybe' convert good.obj -o out.vdb --dim=3 --strict=maybe
+expect 2 'true or false: --strict=99999999999999999999' convert good.obj -o out.vdb --strict=99999999999999999999
 expect 2 '' # no command at all
 
 # Limits, exit code 4; output, exit code 5.
@@ -153,9 +156,24 @@ import json, sys
 vdb, mesh = json.load(open(sys.argv[1]))
 assert [grid["name"] for grid in vdb["grids"]] == ["density", "mask"]
 assert vdb["grids"][0]["active_voxels"] == vdb["grids"][1]["active_voxels"] > 1000
-assert mesh["meshes"][0]["valences"] == {"3": 8}
+cube = mesh["meshes"][0]
+assert cube["valences"] == {"3": 8}
+assert cube["closed"] and cube["orientable"] and cube["genus"] == 0
+assert cube["repair"] == {} and cube["prepared"]["faces"] == 6
 PY
 expect 3 'missing.vdb' info missing.vdb
+expect 0 '' info winding.obj
+grep -q 'repair  *dropped 1 duplicate face' stdout || fail "info: no word of the repair"
+grep -q 'after repair: 3 vertices, 3 edges, 1 face' stdout || fail "info: not after repair"
+expect 0 '' info --json winding.obj
+python3 - stdout <<'PY' || fail "info --json of a repair"
+import json, sys
+mesh = json.load(open(sys.argv[1]))[0]["meshes"][0]
+assert mesh["faces"] == 2 and mesh["prepared"]["faces"] == 1
+assert mesh["prepared"]["boundary_loops"] == [3]
+assert mesh["repair"]["dropped duplicate faces"]["count"] == 1
+assert "face 1" in mesh["repair"]["dropped duplicate faces"]["first"]
+PY
 
 for format in obj ply off; do
   expect 0 '96 vertices, 98 faces' subdivide "$scenes/cube.obj" -o "cube.$format" --levels 2
@@ -184,6 +202,45 @@ expect 0 '' convert winding.obj -o winding.vdb --dim 8
 grep -q 'warning: winding: dropped 1 duplicate face' stderr || fail "no word of the repair: $(cat stderr)"
 printf '%sf 1 1 2\n' "$triangle" >nothing.obj
 expect 3 'nothing.obj: nothing is left after repair' convert nothing.obj -o out.vdb
+
+# Strict: no repair at all. Both commands, the scene, and the command line over the scene.
+printf '[convert]\nstrict = true\n[[object]]\nname = "two"\nmesh = "winding.obj"\n' >strict.toml
+strict='winding.obj: needs repair, which strict forbids: dropped face 1, which repeats face 0'
+expect 3 "$strict" convert winding.obj -o out.vdb --dim 8 --strict
+expect 3 "$strict" subdivide winding.obj -o out.obj --levels 0 --strict
+expect 3 'strict.toml: needs repair, .*face 1' convert strict.toml -o out.vdb --dim 8
+expect 0 '' convert strict.toml -o strict.vdb --dim 8 --strict=false
+expect 0 'active voxels' convert "$scenes/cube.toml" -o strict.vdb --dim 8 --strict --force
+
+# Near vertices, in world units.
+cat >near.obj <<'OBJ'
+v 0 0 0
+v 100 0 0
+v 0 100 0
+v 100.3 0 0
+v 0 100.3 0
+v 100 100 0
+f 1 2 3
+f 4 6 5
+OBJ
+expect 0 'near.off: 6 vertices, 2 faces' subdivide near.obj -o near.off --levels 0
+expect 0 '' subdivide near.obj -o near.off --levels 0 --weld 0.5 --force
+grep -q 'warning: near: welded 2 vertices' stderr || fail "no word of welding: $(cat stderr)"
+grep -q 'near.off: 4 vertices, 2 faces' stderr || fail "not welded: $(cat stderr)"
+printf '[convert]\nweld = 0.5\n[[object]]\nmesh = "near.obj"\n' >near.toml
+expect 0 '' convert near.toml -o near.vdb --dim 10
+grep -q 'warning: object 1: welded 2 vertices' stderr || fail "the scene's weld: $(cat stderr)"
+expect 0 '' convert near.toml -o near.vdb --dim 10 --weld 0 --force
+grep -q 'falls apart into 2 separate faces' stderr || fail "--weld 0 over the scene: $(cat stderr)"
+expect 2 'weld tolerance' convert near.obj -o out.vdb --weld -1
+expect 2 'weld tolerance' subdivide near.obj -o out.obj --levels 0 --weld inf
+expect 2 'weld' convert near.obj -o out.vdb --weld far
+
+expect 0 '' info near.obj --weld 0.5
+grep -q 'after repair: 4 vertices' stdout || fail "info --weld: $(cat stdout)"
+expect 2 'weld tolerance' info near.obj --weld -1
+expect 0 '' info nothing.obj
+grep -q 'nothing is left' stdout || fail "info of nothing: $(cat stdout)"
 
 # What needs care at the edges.
 expect 2 'out.obj: .*must end in .vdb' convert good.obj -o out.obj
@@ -322,8 +379,12 @@ PY
 
 # A signal leaves the target as it was. (Background jobs of a script ignore SIGINT.)
 echo old >kept.vdb
-"$vox" convert "$scenes/toy_jack.toml" -o kept.vdb --force --dim 1500 2>stderr &
-sleep 0.2
+"$vox" convert "$scenes/toy_jack.toml" -o kept.vdb --force --dim 3000 2>stderr &
+for _ in $(seq 200); do  # until the program catches SIGTERM, the 15th bit
+  caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' /proc/$!/status)
+  ((16#${caught:-0} & 0x4000)) && break
+  sleep 0.05
+done
 kill -TERM $!
 wait $!
 [ $? -eq 130 ] || fail "interrupt: exit code"

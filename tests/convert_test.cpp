@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
-#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -89,6 +88,25 @@ TEST_CASE("no path of white voxels joins the sides of a closed surface", "[pipel
       CHECK((sides.inside > 0 || dim < 13));
       CHECK(sides.leaks == 0);
     }
+}
+
+TEST_CASE("no path of white voxels joins the sides of a long thin bar", "[pipeline][property]") {
+  // Its patches go out as rows: see that these still separate, whatever the angle.
+  for (const double angle : {0.0, 0.3, 0.7853981633974483}) {
+    CAPTURE(angle);
+    PolygonMesh bar = test::cube();
+    for (Vec3d& p : bar.points)
+      p = Vec3d(12 * p.x() * std::cos(angle) - p.y() * std::sin(angle),
+                12 * p.x() * std::sin(angle) + p.y() * std::cos(angle), p.z());
+    const Conversion conversion = convert(sceneOf(bar), maskAt(45));
+    constexpr int kLevels = 4;  // the surface, near enough: within 0.1 voxels
+    PolygonMesh surface = subdivide(baseLevel(bar), kLevels).mesh;
+    for (Vec3d& p : surface.points) p /= conversion.report.voxelSize;
+    const test::Sides sides = test::sidesOf(surface, maskOf(conversion));
+    CHECK(sides.outside > 0);
+    CHECK(sides.inside > 0);
+    CHECK(sides.leaks == 0);
+  }
 }
 
 TEST_CASE("removing a voxel that the surface needs opens a leak that the check sees",
@@ -385,17 +403,18 @@ TEST_CASE("contradictory arrays are refused, not followed", "[pipeline][error]")
 }
 
 TEST_CASE("flipping any faces changes no voxel", "[pipeline][property]") {
-  for (const auto& shape : test::shapes()) {
+  std::vector<test::Shape> all = test::shapes();
+  all.insert(all.end(), test::openShapes().begin(), test::openShapes().end());
+  all.push_back({"Moebius strip", test::moebius(9), false});
+  all.push_back({"Klein bottle", test::klein(9, 6), true});
+  all.push_back({"fin", test::finOnSheet(), false});
+  all.push_back({"book", test::book(5), false});
+  all.push_back({"cones", test::twoCones(), false});
+  for (const auto& shape : all) {
     CAPTURE(shape.name);
-    const Conversion plain = convert(sceneOf(shape.mesh), maskAt(40));
+    const Conversion plain = convert(sceneOf(shape.mesh), maskAt(20));
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
-      PolygonMesh flipped = shape.mesh;
-      std::mt19937 random(seed);
-      for (Index f = 0; f < flipped.faceCount(); ++f)
-        if (random() % 2 == 0)
-          std::reverse(flipped.faceVertices.begin() + flipped.faceOffsets[f],
-                       flipped.faceVertices.begin() + flipped.faceOffsets[f + 1]);
-      const Conversion other = convert(sceneOf(flipped), maskAt(40));
+      const Conversion other = convert(sceneOf(test::stirred(shape.mesh, 0.5, seed)), maskAt(20));
       CHECK(maskOf(other).tree().hasSameTopology(maskOf(plain).tree()));
     }
   }
@@ -409,19 +428,35 @@ TEST_CASE("a Moebius strip is converted with a warning", "[pipeline]") {
 }
 
 TEST_CASE("what repair did is told in one line", "[pipeline]") {
-  PolygonMesh unwelded;  // a cube of 24 vertices
   const PolygonMesh cube = test::cube();
-  for (Index f = 0; f < cube.faceCount(); ++f) {
-    std::vector<Index> face;
-    for (const Index v : cube.face(f)) {
-      face.push_back(unwelded.pointCount());
-      unwelded.points.push_back(cube.points[v]);
-    }
-    unwelded.addFace(face);
-  }
-  const Conversion conversion = convert(sceneOf(unwelded), maskAt(30));
+  const Conversion conversion = convert(sceneOf(test::unwelded(cube)), maskAt(30));
   REQUIRE(conversion.report.warnings.size() == 1);
   CHECK_THAT(conversion.report.warnings[0], Contains("welded 16 vertices"));
   const Conversion plain = convert(sceneOf(cube), maskAt(30));
   CHECK(maskOf(conversion).tree().hasSameTopology(maskOf(plain).tree()));
+}
+
+TEST_CASE("the weld tolerance is in world units, whatever the resolution", "[pipeline]") {
+  PolygonMesh gaping = test::unwelded(test::cube());
+  for (Index v = 0; v < gaping.pointCount(); ++v) gaping.points[v].z() += 0.001 * (v / 4);
+  for (const int dim : {4, 400}) {  // voxels of 1/2 and of 1/200
+    ConvertOptions options = maskAt(dim);
+    options.weldTolerance = 0.01;
+    const Conversion conversion = convert(sceneOf(gaping), options);
+    REQUIRE(conversion.report.warnings.size() == 1);
+    CHECK_THAT(conversion.report.warnings[0], Contains("welded 16 vertices"));
+    CHECK(conversion.grids[0]->metaValue<std::string>("vox_options").find(" weld=0.01") !=
+          std::string::npos);
+    options.weldTolerance = 0.0001;
+    const auto warnings = convert(sceneOf(gaping), options).report.warnings;
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Contains("falls apart into 6 separate faces") && Contains("--weld"));
+  }
+}
+
+TEST_CASE("strict conversion takes a sound mesh and refuses any other", "[pipeline][error]") {
+  ConvertOptions options = maskAt(8);
+  options.strict = true;
+  CHECK(convert(sceneOf(test::cube()), options).report.warnings.empty());
+  CHECK_THROWS_AS(convert(sceneOf(test::moebius(8)), options), MeshError);
 }

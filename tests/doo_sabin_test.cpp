@@ -220,7 +220,7 @@ TEST_CASE("a regular grid tends to the tensor-product quadratic B-spline",
 }
 
 TEST_CASE("levels do not depend on the number of threads", "[subdivide][parallel]") {
-  const auto mesh = test::shuffled(test::torusGrid(40, 30), 3);
+  const auto mesh = test::shuffled(GENERATE(test::torusGrid(40, 30), test::sheet(120, 90)), 3);
   const auto run = [&] { return subdivide(baseLevel(mesh), 3); };
   const auto one = onThreads(1, run);
   const auto eight = onThreads(8, run);

@@ -17,6 +17,16 @@ using namespace vox;
 
 namespace {
 
+/// A closed bar much longer than wide, at an angle to the axes.
+PolygonMesh bar(double length) {
+  PolygonMesh mesh = test::cube();
+  for (Vec3d& p : mesh.points) {
+    p.x() *= length;
+    p = Vec3d(0.8 * p.x() - 0.6 * p.y(), 0.6 * p.x() + 0.8 * p.y(), p.z());
+  }
+  return mesh;
+}
+
 /// Collects all vertices, by level; expands patches by their definition.
 class Collector : public SurfaceSink {
  public:
@@ -113,4 +123,25 @@ TEST_CASE("submeshes emit the vertices of the whole mesh, each once and at its l
           const Collector whole = globally(base);
           for (const Index faces : {1U, 3U, 1000U}) requireSame(locally(base, faces), whole);
         }
+}
+
+TEST_CASE("the vertices of long thin patches are the same for every cut, and few",
+          "[subdivide][localize][property]") {
+  const SubdivisionLevel base = scaled(test::torusGrid(4, 64), 60.0, BoundaryRule::kExtend);
+  const Collector whole = globally(base);
+  for (const Index faces : {1U, 1000U}) requireSame(locally(base, faces), whole);
+  std::size_t count = 0;
+  for (const auto& [level, vertices] : whole.vertices) count += vertices.size();
+  // In squares, each of the 1024 corners would become as many along the short side as along the
+  // long.
+  const int deepest = whole.vertices.rbegin()->first;
+  CHECK(count < (std::size_t{1024} << (2 * (deepest - 1))) / 8);
+}
+
+TEST_CASE("a long bar is the same for every cut, though it is thin askew",
+          "[subdivide][localize][property]") {
+  RepairReport report;
+  const SubdivisionLevel base = scaled(repair(bar(40), {}, report), 2.0, BoundaryRule::kExtend);
+  const Collector whole = globally(base);
+  for (const Index faces : {1U, 1000U}) requireSame(locally(base, faces), whole);
 }

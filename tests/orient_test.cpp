@@ -1,6 +1,5 @@
 #include "libvox/prepare/orient.h"
 
-#include "libvox/mesh/validate.h"
 #include "libvox/prepare/enclosure.h"
 #include "libvox/prepare/repair.h"
 #include "libvox/subdivide/doo_sabin.h"
@@ -9,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -28,48 +28,8 @@ Oriented oriented(const PolygonMesh& mesh) {
   return out;
 }
 
-bool sameMesh(const PolygonMesh& a, const PolygonMesh& b) {
-  return a.points == b.points && a.faceOffsets == b.faceOffsets && a.faceVertices == b.faceVertices;
-}
-
 void checkSound(const PolygonMesh& mesh) {
-  const Adjacency adjacency = buildAdjacency(mesh);
-  const auto defects = findDefects(mesh, adjacency);
-  if (!defects.empty()) FAIL_CHECK(defects[0].message);
-  CHECK_NOTHROW(baseLevel(mesh));
-}
-
-void flipFace(PolygonMesh& mesh, Index f) {
-  std::reverse(mesh.faceVertices.begin() + mesh.faceOffsets[f],
-               mesh.faceVertices.begin() + mesh.faceOffsets[f + 1]);
-}
-
-PolygonMesh insideOut(PolygonMesh mesh) {
-  for (Index f = 0; f < mesh.faceCount(); ++f) flipFace(mesh, f);
-  return mesh;
-}
-
-/// Rotates every face and flips each with the given probability.
-PolygonMesh stirred(PolygonMesh mesh, double flips, std::uint32_t seed) {
-  std::mt19937 random(seed);
-  for (Index f = 0; f < mesh.faceCount(); ++f) {
-    const auto begin = mesh.faceVertices.begin() + mesh.faceOffsets[f];
-    const auto end = mesh.faceVertices.begin() + mesh.faceOffsets[f + 1];
-    std::rotate(begin, begin + random() % mesh.faceSize(f), end);
-    if (std::uniform_real_distribution<double>()(random) < flips) flipFace(mesh, f);
-  }
-  return mesh;
-}
-
-PolygonMesh together(PolygonMesh a, const PolygonMesh& b, double scale, const Vec3d& shift) {
-  const Index offset = a.pointCount();
-  for (const Vec3d& p : b.points) a.points.push_back(scale * p + shift);
-  for (Index f = 0; f < b.faceCount(); ++f) {
-    std::vector<Index> face;
-    for (const Index v : b.face(f)) face.push_back(v + offset);
-    a.addFace(face);
-  }
-  return a;
+  CHECK(test::faultOf(mesh) == "");
 }
 
 double volume(const PolygonMesh& mesh) {
@@ -78,34 +38,11 @@ double volume(const PolygonMesh& mesh) {
   return signedVolume(mesh, all).volume;
 }
 
-int euler(const PolygonMesh& mesh) {
-  const Adjacency adjacency = buildAdjacency(mesh);
-  int edges = 0;
-  for (Index c = 0; c < mesh.cornerCount(); ++c)
-    edges += adjacency.twin[c] == kNone || leadsEdge(adjacency, c);
-  return static_cast<int>(mesh.pointCount()) - edges + static_cast<int>(mesh.faceCount());
-}
-
-/// A Klein bottle: a torus grid whose last column is glued to the first one upside down.
-PolygonMesh klein(int columns, int rows) {
-  PolygonMesh mesh = test::torusGrid(columns, rows);
-  mesh.faceVertices.clear();
-  mesh.faceOffsets = {0};
-  const auto at = [&](int i, int j) {
-    const int row = i < columns ? j : 2 * rows - j;
-    return static_cast<Index>(i % columns * rows + row % rows);
-  };
-  for (int i = 0; i < columns; ++i)
-    for (int j = 0; j < rows; ++j)
-      mesh.addFace(std::vector<Index>{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-  return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("volume is that of the solid, negative inside out", "[orient]") {
   CHECK(volume(test::cube()) == Approx(8));
-  CHECK(volume(insideOut(test::cube())) == Approx(-8));
+  CHECK(volume(test::insideOut(test::cube())) == Approx(-8));
   CHECK(volume(test::tetrahedron()) == Approx(8.0 / 3));
 }
 
@@ -155,17 +92,17 @@ TEST_CASE("flipping and rotating any faces of a closed mesh changes not a bit",
     const auto expected = oriented(shape.mesh);
     for (std::uint32_t seed = 0; seed < 40; ++seed) {
       CAPTURE(seed);
-      const auto out = oriented(stirred(shape.mesh, seed / 39.0, seed));
-      CHECK(sameMesh(out.mesh, expected.mesh));
+      const auto out = oriented(test::stirred(shape.mesh, seed / 39.0, seed));
+      CHECK(test::sameMesh(out.mesh, expected.mesh));
     }
-    CHECK(oriented(insideOut(shape.mesh)).report.flippedFaces == shape.mesh.faceCount());
+    CHECK(oriented(test::insideOut(shape.mesh)).report.flippedFaces == shape.mesh.faceCount());
   }
 }
 
 TEST_CASE("an open mesh follows the majority of its faces", "[orient][property]") {
   const PolygonMesh sheet = test::sheet(5, 4);
   const auto expected = oriented(sheet);
-  const auto opposite = oriented(insideOut(sheet));
+  const auto opposite = oriented(test::insideOut(sheet));
   for (std::uint32_t seed = 0; seed < 60; ++seed) {
     CAPTURE(seed);
     PolygonMesh mesh = sheet;
@@ -173,12 +110,12 @@ TEST_CASE("an open mesh follows the majority of its faces", "[orient][property]"
     std::iota(faces.begin(), faces.end(), 0);
     std::shuffle(faces.begin(), faces.end(), std::mt19937(seed));
     const Index flips = seed % 21;
-    for (Index k = 0; k < flips; ++k) flipFace(mesh, faces[k]);
-    const auto out = oriented(stirred(mesh, 0, seed));
+    for (Index k = 0; k < flips; ++k) test::flipFace(mesh, faces[k]);
+    const auto out = oriented(test::stirred(mesh, 0, seed));
     const bool firstKept =
         std::find(faces.begin(), faces.begin() + flips, 0) == faces.begin() + flips;
     const bool keeps = flips < 10 || (flips == 10 && firstKept);
-    CHECK(sameMesh(out.mesh, keeps ? expected.mesh : opposite.mesh));
+    CHECK(test::sameMesh(out.mesh, keeps ? expected.mesh : opposite.mesh));
     CHECK(out.report.flippedFaces == (keeps ? flips : 20 - flips));
     CHECK(out.report.openComponents == 1);
   }
@@ -186,8 +123,8 @@ TEST_CASE("an open mesh follows the majority of its faces", "[orient][property]"
 
 TEST_CASE("repair and orient together ignore winding and rotation of a crowded mesh",
           "[orient][property]") {
-  PolygonMesh mesh = together(test::cube(), test::cube(), 1, {2, 2, 0});  // a common edge
-  mesh = together(mesh, test::cube(), 1, {-2, 0, 0});                     // a common wall
+  PolygonMesh mesh = test::together(test::cube(), test::cube(), {2, 2, 0});  // a common edge
+  mesh = test::together(mesh, test::cube(), {-2, 0, 0});                     // a common wall
   const auto prepare = [](const PolygonMesh& input) {
     RepairReport repairs;
     return oriented(repair(input, {}, repairs)).mesh;
@@ -196,7 +133,7 @@ TEST_CASE("repair and orient together ignore winding and rotation of a crowded m
   checkSound(expected);
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
     // The wall is a component of its own, one face: it keeps its winding. Flip the others.
-    PolygonMesh input = stirred(mesh, 0.5, seed);
+    PolygonMesh input = test::stirred(mesh, 0.5, seed);
     const PolygonMesh out = prepare(input);
     CHECK(out.points == expected.points);
     CHECK(out.faceOffsets == expected.faceOffsets);
@@ -209,31 +146,32 @@ TEST_CASE("repair and orient together ignore winding and rotation of a crowded m
 
 TEST_CASE("a cavity keeps facing inward, when the input says so", "[orient]") {
   const PolygonMesh solid = test::cube();
-  const PolygonMesh hollow = together(solid, insideOut(test::cube()), 0.5, {0.1, 0.2, 0.1});
+  const PolygonMesh hollow =
+      test::together(solid, test::insideOut(test::cube()), {0.1, 0.2, 0.1}, 0.5);
   const auto kept = oriented(hollow);
   CHECK(volume(kept.mesh) == Approx(7));
   CHECK(kept.report.cavities == 1);
   CHECK(kept.report.flippedFaces == 0);
-  CHECK(sameMesh(kept.mesh, oriented(kept.mesh).mesh));
+  CHECK(test::sameMesh(kept.mesh, oriented(kept.mesh).mesh));
 
-  CHECK(volume(oriented(together(solid, solid, 0.5, {0.1, 0.2, 0.1})).mesh) == Approx(9));
+  CHECK(volume(oriented(test::together(solid, solid, {0.1, 0.2, 0.1}, 0.5)).mesh) == Approx(9));
 
   PolygonMesh inconsistent = hollow;
-  flipFace(inconsistent, 7);
+  test::flipFace(inconsistent, 7);
   const auto turned = oriented(inconsistent);
   CHECK(volume(turned.mesh) == Approx(9));
   CHECK(turned.report.cavities == 0);
 }
 
 TEST_CASE("an inside-out cube beside another one is no cavity", "[orient]") {
-  const auto out = oriented(together(test::cube(), insideOut(test::cube()), 1, {5, 0, 0}));
+  const auto out = oriented(test::together(test::cube(), test::insideOut(test::cube()), {5, 0, 0}));
   CHECK(volume(out.mesh) == Approx(16));
   // Within the bounding box is not yet within: here, in the hole of a torus.
   const PolygonMesh ring =
-      together(test::torusGrid(24, 12), insideOut(test::cube()), 0.1, {0, 0, 0});
+      test::together(test::torusGrid(24, 12), test::insideOut(test::cube()), {0, 0, 0}, 0.1);
   CHECK(oriented(ring).report.cavities == 0);
   const PolygonMesh inTube =
-      together(test::torusGrid(24, 12), insideOut(test::cube()), 0.1, {1, 0, 0});
+      test::together(test::torusGrid(24, 12), test::insideOut(test::cube()), {1, 0, 0}, 0.1);
   CHECK(oriented(inTube).report.cavities == 1);
 }
 
@@ -247,30 +185,30 @@ TEST_CASE("a Moebius strip becomes its double cover", "[orient]") {
   CHECK(out.report.secondSide == n);
   CHECK(out.mesh.faceCount() == 2 * n);
   CHECK(out.mesh.pointCount() == 4 * n);
-  CHECK(euler(out.mesh) == 0);
+  CHECK(test::eulerCharacteristic(out.mesh) == 0);
   CHECK_THAT(summary(out.report), Contains("doubled 1 one-sided component (face 0)"));
   checkSound(out.mesh);
   CHECK(boundaryLoops(out.mesh, buildAdjacency(out.mesh)).size() == 2);  // an annulus
   for (Index v = 0; v < out.mesh.pointCount(); ++v)
     CHECK(out.mesh.points[v] == test::moebius(quads).points[out.report.pointOrigin[v]]);
   const auto again = oriented(out.mesh);
-  CHECK(sameMesh(again.mesh, out.mesh));
+  CHECK(test::sameMesh(again.mesh, out.mesh));
   CHECK(again.report.oneSided.empty());
 }
 
 TEST_CASE("a Klein bottle becomes a torus over it", "[orient]") {
-  const PolygonMesh bottle = klein(8, 5);
+  const PolygonMesh bottle = test::klein(8, 5);
   const auto out = oriented(bottle);
   CHECK(out.report.oneSided.size() == 1);
   CHECK(out.mesh.faceCount() == 2 * bottle.faceCount());
   CHECK(out.mesh.pointCount() == 2 * bottle.pointCount());
-  CHECK(euler(out.mesh) == 0);
+  CHECK(test::eulerCharacteristic(out.mesh) == 0);
   CHECK(boundaryLoops(out.mesh, buildAdjacency(out.mesh)).empty());
   checkSound(out.mesh);
 }
 
 TEST_CASE("the two sides of a one-sided surface subdivide to the same points", "[orient]") {
-  const PolygonMesh bottle = klein(6, 5);
+  const PolygonMesh bottle = test::klein(6, 5);
   const auto out = oriented(bottle);
   const auto level = subdivide(baseLevel(out.mesh), 2);
   auto points = level.mesh.points;
@@ -292,7 +230,7 @@ TEST_CASE("one-sided surfaces do not depend on winding and rotation but for the 
   const PolygonMesh strip = test::moebius(9);
   const auto expected = oriented(strip);
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
-    const auto out = oriented(stirred(strip, 0.5, seed));
+    const auto out = oriented(test::stirred(strip, 0.5, seed));
     CHECK(out.mesh.faceCount() == expected.mesh.faceCount());
     CHECK(out.mesh.points == expected.mesh.points);
     checkSound(out.mesh);
@@ -306,10 +244,11 @@ TEST_CASE("an empty mesh stays empty", "[orient]") {
 }
 
 TEST_CASE("components are turned one by one", "[orient]") {
-  PolygonMesh mesh = insideOut(test::cube());
+  PolygonMesh mesh = test::insideOut(test::cube());
   for (int i = 1; i < 6; ++i)
-    mesh = together(mesh, i % 2 ? test::cube() : insideOut(test::cube()), 1, {3.0 * i, 0, 0});
-  mesh = together(mesh, test::sheet(2, 2), 1, {0, 9, 0});
+    mesh =
+        test::together(mesh, i % 2 ? test::cube() : test::insideOut(test::cube()), {3.0 * i, 0, 0});
+  mesh = test::together(mesh, test::sheet(2, 2), {0, 9, 0});
   const auto out = oriented(mesh);
   CHECK(out.report.components == 7);
   CHECK(out.report.closedComponents == 6);

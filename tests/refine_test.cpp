@@ -48,41 +48,41 @@ TEST_CASE("level 0 is the prepared mesh: welded, oriented, each face from its lo
 }
 
 TEST_CASE("level 0 is the control mesh when vertices are interpolated", "[pipeline]") {
-  SmoothingOptions smoothing;
-  smoothing.interpolate = Interpolate::kInterior;
+  PreparationOptions options;
+  options.smoothing.interpolate = Interpolate::kInterior;
   const Scene scene = sceneOf({test::cube()});
-  const PolygonMesh controls = refine(scene, 0, smoothing, {}).mesh;
-  const PolygonMesh refined = refine(scene, 1, smoothing, {}).mesh;
+  const PolygonMesh controls = refine(scene, 0, options, {}).mesh;
+  const PolygonMesh refined = refine(scene, 1, options, {}).mesh;
   for (Index v = 0; v < 8; ++v) {
     CHECK(controls.points[v].norm() > test::cube().points[v].norm());
     CHECK((test::faceCentroid(refined, 6 + 12 + v).cwiseAbs() - Vec3d::Ones()).norm() < 1e-12);
   }
   SceneObject own = scene.objects[0];
-  own.smoothing = smoothing;
+  own.smoothing = options.smoothing;
   Scene inScene;
   inScene.objects = {own};
   CHECK(refine(inScene, 0, {}, {}).mesh.points == controls.points);
-  SmoothingOptions none;
-  none.interpolate = Interpolate::kNothing;
+  PreparationOptions none;
+  none.smoothing.interpolate = Interpolate::kNothing;
   CHECK(refine(inScene, 0, none, {}).mesh.points == test::cube().points);
 }
 
 TEST_CASE("what cannot be interpolated is said", "[pipeline][error]") {
-  SmoothingOptions smoothing;
-  smoothing.interpolatedVertices = std::vector<Index>{8};
-  CHECK_THROWS_WITH(refine(sceneOf({test::valenceTwo()}), 0, smoothing, {}),
+  PreparationOptions options;
+  options.smoothing.interpolatedVertices = std::vector<Index>{8};
+  CHECK_THROWS_WITH(refine(sceneOf({test::valenceTwo()}), 0, options, {}),
                     Contains("vertex 8 is to be interpolated, but repair has removed it"));
-  CHECK_THROWS_WITH(refine(sceneOf({test::cube()}), 0, smoothing, {}),
+  CHECK_THROWS_WITH(refine(sceneOf({test::cube()}), 0, options, {}),
                     Contains("vertex 8 is to be interpolated, but there are only 8"));
 
-  smoothing = {};
-  smoothing.interpolate = Interpolate::kBoth;
-  smoothing.boundary = BoundaryRule::kFree;
-  CHECK_THROWS_AS(refine(sceneOf({test::sheet(3, 3)}), 1, smoothing, {}), UsageError);
-  smoothing = {};
-  smoothing.interpolatedVertices = std::vector<Index>{0};
-  CHECK_THROWS_AS(refine(sceneOf({test::cube(), test::cube()}), 1, smoothing, {}), UsageError);
-  CHECK_THROWS_WITH(refine(sceneOf({test::sheet(2, 2)}), 1, smoothing, {}),
+  options = {};
+  options.smoothing.interpolate = Interpolate::kBoth;
+  options.smoothing.boundary = BoundaryRule::kFree;
+  CHECK_THROWS_AS(refine(sceneOf({test::sheet(3, 3)}), 1, options, {}), UsageError);
+  options = {};
+  options.smoothing.interpolatedVertices = std::vector<Index>{0};
+  CHECK_THROWS_AS(refine(sceneOf({test::cube(), test::cube()}), 1, options, {}), UsageError);
+  CHECK_THROWS_WITH(refine(sceneOf({test::sheet(2, 2)}), 1, options, {}),
                     Contains("vertex 0 cannot be interpolated: it is on the boundary"));
 }
 
@@ -141,4 +141,76 @@ TEST_CASE("impossible requests for refinement are refused", "[pipeline][error]")
   PolygonMesh wrong = test::cube();
   wrong.faceVertices[5] = 50000000;
   CHECK_THROWS_AS(refine(sceneOf({wrong}), 1, {}, {}), MeshError);
+}
+
+TEST_CASE("a strict run names the first thing that a mesh needs", "[pipeline][error]") {
+  PolygonMesh flipped = test::cube();
+  test::flipFace(flipped, 4);
+  PolygonMesh unused = test::cube();
+  unused.points.insert(unused.points.begin(), Vec3d(9, 9, 9));
+  for (Index& v : unused.faceVertices) ++v;
+  PolygonMesh duplicate = test::cube();
+  duplicate.addFace(duplicate.face(2));
+  PolygonMesh repeated = test::cube();
+  repeated.addFace(std::vector<Index>{3, 3, 5});
+  const PolygonMesh book = test::meshOf({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
+                                        {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  PolygonMesh strip = test::moebius(8);  // wound against itself at one edge only
+  for (Index f = 4; f < 8; ++f) test::flipFace(strip, f);
+  const std::vector<std::pair<PolygonMesh, std::string>> cases = {
+      {flipped, "flipped face 4, "},
+      {test::insideOut(test::cube()), "flipped face 0, "},
+      {unused, "removed vertex 0, which belongs to no face"},
+      {duplicate, "dropped face 6, which repeats face 2"},
+      {repeated, "dropped face 6, which has fewer than 3 distinct corners"},
+      {test::unwelded(test::cube()), "welded vertex 8 to vertex 0"},
+      {book, "cut edge (0, 1) of face 0, "},
+      {test::bowTie(), "split vertex 0, which joins several fans of faces"},
+      {test::valenceTwo(), "chorded vertex 8, "},
+      {strip, "doubled the component of face 0, which is one-sided"},
+  };
+  PreparationOptions strict;
+  strict.strict = true;
+  for (const auto& [mesh, message] : cases) {
+    CAPTURE(message);
+    Scene scene = sceneOf({test::cube(), mesh});
+    scene.files = {"two.toml"};
+    CHECK_THROWS_WITH(
+        refine(scene, 0, strict, {}),
+        Contains("two.toml: object 2: needs repair, which strict forbids: " + message));
+    CHECK_NOTHROW(refine(scene, 0, {}, {}));
+    scene.strict = true;
+    CHECK_THROWS_AS(refine(scene, 0, {}, {}), MeshError);
+    strict.strict = false;
+    CHECK_NOTHROW(refine(scene, 0, strict, {}));
+    strict.strict = true;
+  }
+  for (const auto& shape : test::openShapes()) {
+    CAPTURE(shape.name);
+    CHECK_NOTHROW(refine(sceneOf({shape.mesh}), 0, strict, {}));
+  }
+}
+
+TEST_CASE("elements in messages are those of the input, after repair too", "[pipeline]") {
+  PolygonMesh mesh = test::cube();
+  mesh.addFace(std::vector<Index>{0, 0, 1});  // dropped, so the strip's faces move up
+  mesh = test::together(mesh, test::moebius(8), {5, 0, 0});
+  const auto warnings = refine(sceneOf({mesh}), 0, {}, {}).warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("dropped 1 degenerate face, ") &&
+                              Contains(", doubled 1 one-sided component (face 7)"));
+}
+
+TEST_CASE("a weld tolerance closes small gaps, the command line before the scene", "[pipeline]") {
+  PolygonMesh gaping = test::unwelded(test::cube());
+  for (Index v = 0; v < gaping.pointCount(); ++v) gaping.points[v].x() += 0.001 * (v / 4);
+  Scene scene = sceneOf({gaping});
+  CHECK(refine(scene, 0, {}, {}).mesh.pointCount() == 24);
+  scene.weldTolerance = 0.01;
+  CHECK(refine(scene, 0, {}, {}).mesh.pointCount() == 8);
+  PreparationOptions options;
+  options.weldTolerance = 0;
+  CHECK(refine(scene, 0, options, {}).mesh.pointCount() == 24);
+  options.weldTolerance = -0.5;
+  CHECK_THROWS_AS(refine(scene, 0, options, {}), UsageError);
 }

@@ -34,12 +34,15 @@ void checkRefused(const std::string& text, const std::string& where, const std::
 }  // namespace
 
 TEST_CASE("a scene gives settings and objects", "[scene]") {
-  const Scene scene =
-      read("[convert]\ndim = 128\ngrids = ['mask', 'density']\n[[object]]\nname = 't'\n" +
-           kTriangle + "[[object]]\n" + kTriangle);
+  const Scene scene = read(
+      "[convert]\ndim = 128\ngrids = ['mask', 'density']\nweld = 0.25\nstrict = true\n"
+      "[[object]]\nname = 't'\n" +
+      kTriangle + "[[object]]\n" + kTriangle);
   CHECK(scene.dim == 128);
   CHECK_FALSE(scene.voxelSize.has_value());
   CHECK(scene.grids == std::vector{GridKind::kMask, GridKind::kDensity});
+  CHECK(scene.weldTolerance == 0.25);
+  CHECK(scene.strict == true);
   REQUIRE(scene.objects.size() == 2);
   CHECK(scene.objects[0].name == "t");
   CHECK(scene.objects[1].name == "object 2");
@@ -126,6 +129,9 @@ TEST_CASE("what a scene gets wrong is named with line and column", "[scene][erro
   checkRefused("[convert]\ndim = 'big'\n", ":2:7:", "dim must be an integer");
   checkRefused("[convert]\nvoxel_size = -1\n", ":2:14:", "voxel_size must be positive");
   checkRefused("[convert]\ndim = 3\nvoxel_size = 1\n", ":3:14:", "cannot both be given");
+  checkRefused("[convert]\nweld = -1\n", ":2:8:", "weld must be 0 or more");
+  checkRefused("[convert]\nweld = 'all'\n", ":2:8:", "weld must be a number");
+  checkRefused("[convert]\nstrict = 1\n", ":2:10:", "strict must be true or false");
   checkRefused("[convert]\ngrids = ['fog']\n", ":2:10:", "unknown grid 'fog'; known are density");
   checkRefused("[[object]]\nname = 'x'\n", ":1:1:", "needs either mesh, or points and faces");
   checkRefused("[[object]]\nmesh = 'no.obj'\n", ":2:8:", "no.obj");

@@ -1,10 +1,15 @@
 #include "tests/shapes.h"
 
+#include "libvox/core/error.h"
+#include "libvox/mesh/validate.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <set>
+#include <utility>
 
 namespace vox::test {
 namespace {
@@ -179,6 +184,52 @@ PolygonMesh moebius(int quads) {
   return mesh;
 }
 
+PolygonMesh klein(int columns, int rows) {
+  // A torus grid whose last column is glued to the first one upside down.
+  PolygonMesh mesh = torusGrid(columns, rows);
+  mesh.faceVertices.clear();
+  mesh.faceOffsets = {0};
+  const auto at = [&](int i, int j) {
+    const int row = i < columns ? j : 2 * rows - j;
+    return id(i % columns * rows + row % rows);
+  };
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j)
+      mesh.addFace(std::vector<Index>{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+  return mesh;
+}
+
+PolygonMesh book(int count) {
+  PolygonMesh mesh = meshOf({{0, 0, 0}, {0, 0, 1}}, {});
+  for (int i = 0; i < count; ++i) {
+    mesh.points.emplace_back(std::cos(0.7 * i), std::sin(0.7 * i), 0.5);
+    mesh.addFace(std::vector<Index>{0, 1, mesh.pointCount() - 1});
+  }
+  return mesh;
+}
+
+PolygonMesh twoCones() {
+  PolygonMesh mesh = regularPolygon(6);
+  mesh.faceVertices.clear();
+  mesh.faceOffsets = {0};
+  for (int i = 0; i < 6; ++i) mesh.points.push_back(mesh.points[i] + Vec3d(0, 0, 2));
+  mesh.points.emplace_back(0, 0, 1);
+  for (Index ring = 0; ring < 12; ring += 6)
+    for (Index i = 0; i < 6; ++i)
+      mesh.addFace(std::vector<Index>{12, ring + i, ring + (i + 1) % 6});
+  return mesh;
+}
+
+PolygonMesh finOnSheet() {
+  PolygonMesh mesh = sheet(6, 4);
+  const Index a = 2 * 7 + 2;  // the fin stands on the edges a, a + 1, a + 2
+  const Index top = mesh.pointCount();
+  for (Index i = 0; i < 3; ++i) mesh.points.push_back(mesh.points[a + i] + Vec3d(0, 0, 2));
+  mesh.addFace(std::vector<Index>{a, a + 1, top + 1, top});
+  mesh.addFace(std::vector<Index>{a + 1, a + 2, top + 2, top + 1});
+  return mesh;
+}
+
 const std::vector<Shape>& shapes() {
   static const std::vector<Shape> all = {
       {"cube", cube(), true},
@@ -271,6 +322,95 @@ const std::vector<Shape>& openShapes() {
   return all;
 }
 
+PolygonMesh unwelded(const PolygonMesh& mesh) {
+  PolygonMesh out;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    std::vector<Index> face;
+    for (const Index v : mesh.face(f)) {
+      face.push_back(out.pointCount());
+      out.points.push_back(mesh.points[v]);
+    }
+    out.addFace(face);
+  }
+  return out;
+}
+
+void flipFace(PolygonMesh& mesh, Index f) {
+  std::reverse(mesh.faceVertices.begin() + mesh.faceOffsets[f],
+               mesh.faceVertices.begin() + mesh.faceOffsets[f + 1]);
+}
+
+PolygonMesh insideOut(PolygonMesh mesh) {
+  for (Index f = 0; f < mesh.faceCount(); ++f) flipFace(mesh, f);
+  return mesh;
+}
+
+PolygonMesh stirred(PolygonMesh mesh, double flips, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto begin = mesh.faceVertices.begin() + mesh.faceOffsets[f];
+    const auto end = mesh.faceVertices.begin() + mesh.faceOffsets[f + 1];
+    std::rotate(begin, begin + random() % mesh.faceSize(f), end);
+    if (std::uniform_real_distribution<double>()(random) < flips) flipFace(mesh, f);
+  }
+  return mesh;
+}
+
+PolygonMesh together(PolygonMesh a, const PolygonMesh& b, const Vec3d& shift, double scale) {
+  const Index offset = a.pointCount();
+  for (const Vec3d& p : b.points) a.points.push_back(scale * p + shift);
+  for (Index f = 0; f < b.faceCount(); ++f) {
+    std::vector<Index> face;
+    for (const Index v : b.face(f)) face.push_back(v + offset);
+    a.addFace(face);
+  }
+  return a;
+}
+
+void mutate(PolygonMesh& mesh, std::mt19937& random) {
+  const auto below = [&](std::size_t n) { return static_cast<Index>(random() % n); };
+  const Index f = below(mesh.faceCount());
+  const auto begin = mesh.faceVertices.begin() + mesh.faceOffsets[f];
+  const std::vector<Index> face(begin, begin + mesh.faceSize(f));
+  switch (random() % 9) {
+    case 0:
+      std::reverse(begin, begin + static_cast<std::ptrdiff_t>(face.size()));
+      break;
+    case 1:
+      mesh.addFace(face);
+      break;
+    case 2: {  // delete
+      PolygonMesh rest;
+      rest.points = mesh.points;
+      for (Index g = 0; g < mesh.faceCount(); ++g)
+        if (g != f || mesh.faceCount() == 1) rest.addFace(mesh.face(g));
+      mesh = rest;
+      break;
+    }
+    case 3:  // weld two vertices by name
+      std::replace(mesh.faceVertices.begin(), mesh.faceVertices.end(), below(mesh.pointCount()),
+                   below(mesh.pointCount()));
+      break;
+    case 4:  // collapse an edge
+      std::replace(mesh.faceVertices.begin(), mesh.faceVertices.end(), Index(face[0]),
+                   Index(face[1]));
+      break;
+    case 5:  // move a corner
+      mesh.faceVertices[below(mesh.cornerCount())] = below(mesh.pointCount());
+      break;
+    case 6:  // weld two vertices by place
+      mesh.points[below(mesh.pointCount())] = Vec3d(mesh.points[below(mesh.pointCount())]);
+      break;
+    case 7:  // a face of random vertices
+      mesh.addFace(std::vector<Index>{below(mesh.pointCount()), below(mesh.pointCount()),
+                                      below(mesh.pointCount()), below(mesh.pointCount())});
+      break;
+    default:  // swap two corners
+      std::swap(mesh.faceVertices[below(mesh.cornerCount())],
+                mesh.faceVertices[below(mesh.cornerCount())]);
+  }
+}
+
 PolygonMesh shuffled(const PolygonMesh& mesh, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<Index> newName(mesh.pointCount());
@@ -290,6 +430,31 @@ PolygonMesh shuffled(const PolygonMesh& mesh, std::uint32_t seed) {
     out.addFace(face);
   }
   return out;
+}
+
+bool sameMesh(const PolygonMesh& a, const PolygonMesh& b) {
+  return a.points == b.points && a.faceOffsets == b.faceOffsets && a.faceVertices == b.faceVertices;
+}
+
+std::int64_t eulerCharacteristic(const PolygonMesh& mesh) {
+  std::set<std::pair<Index, Index>> edges;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t i = 0; i < face.size(); ++i)
+      edges.insert(std::minmax(face[i], face[(i + 1) % face.size()]));
+  }
+  return std::int64_t{mesh.pointCount()} - static_cast<std::int64_t>(edges.size()) +
+         mesh.faceCount();
+}
+
+std::string faultOf(const PolygonMesh& mesh) {
+  try {
+    requireValidArrays(mesh);
+    const auto defects = findDefects(mesh, buildAdjacency(mesh), 1);
+    return defects.empty() ? std::string() : defects[0].message;
+  } catch (const Error& error) {
+    return error.what();
+  }
 }
 
 Vec3d centroid(const std::vector<Vec3d>& points) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,12 @@ PolygonMesh valenceTwo();                     ///< closed, with a point between 
 PolygonMesh bowTie();                         ///< two tetrahedra that share a point
 PolygonMesh moebius(int quads);               ///< cannot be oriented
 
+PolygonMesh klein(int columns, int rows);  ///< closed quads, cannot be oriented
+
+PolygonMesh book(int count);  ///< triangles around one edge
+PolygonMesh twoCones();       ///< open, with a common apex
+PolygonMesh finOnSheet();     ///< a sheet, and two quads that stand on its middle
+
 /// One shape of every family that can be subdivided.
 struct Shape {
   std::string name;
@@ -41,8 +48,32 @@ PolygonMesh tube(int around, int along);    ///< quads around a circle, both end
 /// Open shapes of every face size 3..8 and boundary valence 1..7, some with several loops.
 const std::vector<Shape>& openShapes();
 
+PolygonMesh unwelded(const PolygonMesh& mesh);  ///< every face with vertices of its own
+
+void flipFace(PolygonMesh& mesh, Index f);
+PolygonMesh insideOut(PolygonMesh mesh);
+
+/// Rotates every face and flips each with the given probability.
+PolygonMesh stirred(PolygonMesh mesh, double flips, std::uint32_t seed);
+
+/// Two meshes as one; of the second, scaled and moved, vertices and faces follow those of the
+/// first.
+PolygonMesh together(PolygonMesh a, const PolygonMesh& b, const Vec3d& shift, double scale = 1);
+
+/// Does one of many bad things to a mesh: flips, doubles, deletes a face, welds, collapses, moves
+/// corners to random vertices. The arrays stay valid.
+void mutate(PolygonMesh& mesh, std::mt19937& random);
+
 /// The same mesh with points and faces renumbered and faces rotated, at random.
 PolygonMesh shuffled(const PolygonMesh& mesh, std::uint32_t seed);
+
+bool sameMesh(const PolygonMesh& a, const PolygonMesh& b);
+
+/// Points - edges + faces; every point is used.
+std::int64_t eulerCharacteristic(const PolygonMesh& mesh);
+
+/// What keeps a mesh from being subdivided, or is a defect all the same; empty if nothing.
+std::string faultOf(const PolygonMesh& mesh);
 
 Vec3d centroid(const std::vector<Vec3d>& points);
 Vec3d faceCentroid(const PolygonMesh& mesh, Index f);

@@ -31,6 +31,36 @@ TEST_CASE("a summary counts what there is", "[inspect][golden]") {
   CHECK(summarize(test::bowTie()).components == 2);
 }
 
+TEST_CASE("genus, closedness and orientability do not depend on winding", "[inspect][golden]") {
+  const auto check = [](const PolygonMesh& mesh, bool closed, bool orientable, int genus) {
+    for (const double flips : {0.0, 0.5, 1.0}) {
+      CAPTURE(flips);
+      const MeshSummary summary = summarize(test::stirred(mesh, flips, 3));
+      CHECK(summary.closed == closed);
+      CHECK(summary.orientable == orientable);
+      CHECK(summary.genus.value_or(-1) == genus);
+    }
+  };
+  constexpr int kNone = -1;
+  check(test::prism(5), true, true, 0);
+  check(test::torusGrid(8, 5), true, true, 1);
+  check(test::together(test::torusGrid(8, 5), test::torusGrid(5, 5), {9, 0, 0}), true, true, 2);
+  check(test::together(test::cube(), test::cube(), {9, 0, 0}), true, true, 0);
+  check(test::sheet(3, 3), false, true, kNone);
+  check(test::moebius(8), false, false, kNone);
+  check(test::klein(8, 5), true, false, kNone);
+  check(test::bowTie(), true, true, kNone);
+  check(test::book(3), false, true, kNone);
+}
+
+TEST_CASE("boundaries are those of edges of one face, whatever the winding", "[inspect]") {
+  CHECK(summarize(test::stirred(test::sheet(5, 4), 0.5, 1)).boundaryLoops ==
+        std::vector<std::uint64_t>{18});
+  CHECK(summarize(test::moebius(8)).boundaryLoops == std::vector<std::uint64_t>{16});
+  CHECK(summarize(test::stirred(test::torusGrid(8, 5), 0.5, 1)).boundaryLoops.empty());
+  CHECK(summarize(test::tube(7, 3)).boundaryLoops == std::vector<std::uint64_t>{7, 7});
+}
+
 TEST_CASE("defects and unused points are counted apart", "[inspect]") {
   PolygonMesh mesh = test::cube();
   mesh.points.emplace_back(100, 0, 0);

@@ -40,6 +40,11 @@ TEST_CASE("a bow tie is named and passes", "[mesh]") {
   CHECK_NOTHROW(require(test::bowTie()));
 }
 
+TEST_CASE("winding makes no bow ties", "[mesh]") {
+  for (const Defect& defect : defectsOf(test::stirred(test::dodecahedron(), 0.5, 2)))
+    CHECK(defect.kind == DefectKind::kInconsistentWinding);
+}
+
 TEST_CASE("an unused vertex is named and passes", "[mesh]") {
   PolygonMesh mesh = test::cube();
   mesh.points.emplace_back(9, 9, 9);

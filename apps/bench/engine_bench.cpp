@@ -29,11 +29,11 @@ using Clock = std::chrono::steady_clock;
 SubdivisionLevel preparedAt(const PolygonMesh& mesh, int dim) {
   Scene scene;
   scene.objects.push_back({"mesh", mesh});
-  const GridTransform transform = transformForDim(usedBox(mesh), dim);
-  PolygonMesh index = mesh;
-  for (Vec3d& point : index.points) point = transform.toIndex(point);
   Progress unwatched;
-  return prepare(scene, scene.objects[0], std::move(index), {}, MemoryBudget(0), unwatched).base;
+  SubdivisionLevel base = prepare(scene, scene.objects[0], {}, MemoryBudget(0), unwatched).base;
+  const GridTransform transform = transformForDim(usedBox(mesh), dim);
+  for (Vec3d& point : base.mesh.points) point = transform.toIndex(point);
+  return base;
 }
 
 void setRate(benchmark::State& state, const char* name, std::uint64_t count) {

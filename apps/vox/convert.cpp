@@ -14,6 +14,7 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 namespace vox::app {
@@ -25,6 +26,8 @@ struct Options {
   ResolutionOptions resolution;
   SmoothingArguments smoothing;
   SubmeshArguments submeshes;
+  std::optional<double> weldTolerance;
+  std::optional<bool> strict;
   std::string grids;
   std::string report;
   CommonOptions common;
@@ -75,6 +78,8 @@ ConvertOptions parse(const Options& options) {
   parsed.dim = options.resolution.dim;
   parsed.voxelSize = options.resolution.voxelSize;
   parsed.smoothing = parseSmoothing(options.smoothing);
+  parsed.weldTolerance = options.weldTolerance;
+  parsed.strict = options.strict;
   parsed.surface = parseSubmeshes(options.submeshes);
   parsed.run = options.common.run;
   if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
@@ -124,6 +129,8 @@ Action addConvert(CLI::App& app) {
       ->group("Output");
   addResolutionOptions(*command, options->resolution);
   addSmoothingOptions(*command, options->smoothing);
+  addWeldOption(*command, options->weldTolerance);
+  addStrictOption(*command, options->strict);
   command
       ->add_option(
           "--grids", options->grids,

@@ -38,7 +38,7 @@ Json toJson(const ObjectReport& object) {
            {{"boundary_vertices", interpolation.boundaryVertices},
             {"interior_vertices", interpolation.lift.vertices},
             {"iterations", interpolation.lift.iterations},
-            {"residual_voxels", interpolation.lift.residual}}}};
+            {"residual", interpolation.lift.residual}}}};
 }
 
 Json gridNames(const FinishedRun& run) {
@@ -58,6 +58,8 @@ Json optionsJson(const FinishedRun& run) {
           {"interpolate",
            smoothing.interpolate ? Json(interpolateName(*smoothing.interpolate)) : Json()},
           {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
+          {"weld", orNull(options.weldTolerance)},
+          {"strict", orNull(options.strict)},
           {"grids", options.grids ? gridNames(run) : Json()},
           {"localize", localizeName(options.surface.localize)},
           {"submesh_faces", options.surface.submeshFaces},
@@ -93,7 +95,7 @@ std::string interpolationText(const ObjectReport& object) {
   std::ostringstream text;
   text << object.name << ": interpolates " << done.boundaryVertices << " boundary and "
        << done.lift.vertices << " interior vertices, " << done.lift.iterations
-       << " iterations, off by at most " << done.lift.residual << " voxels";
+       << " iterations, off by at most " << done.lift.residual << " world units";
   return text.str();
 }
 

@@ -1,15 +1,19 @@
-// vox info: what is in a mesh, scene or .vdb file.
+// vox info: what is in a mesh, scene or .vdb file, and what preparation makes of a mesh.
 
 #include "apps/vox/command.h"
+#include "apps/vox/options.h"
 #include "libvox/inspect/summary.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/scene_file.h"
+#include "libvox/prepare/sound.h"
 
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <numeric>
+#include <optional>
 #include <sstream>
 
 namespace vox::app {
@@ -20,6 +24,7 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::vector<std::string> files;
   bool json = false;
+  std::optional<double> weldTolerance;
 };
 
 std::map<DefectKind, std::uint64_t> countByKind(const std::vector<Defect>& defects) {
@@ -34,13 +39,15 @@ Json histogramJson(const std::map<std::uint64_t, std::uint64_t>& histogram) {
   return json;
 }
 
-Json toJson(const std::string& name, const MeshSummary& mesh) {
+Json toJson(const MeshSummary& mesh) {
   const auto vector = [](const Vec3d& v) { return Json{v.x(), v.y(), v.z()}; };
-  Json json = {{"name", name},
-               {"vertices", mesh.points},
+  Json json = {{"vertices", mesh.points},
                {"edges", mesh.edges},
                {"faces", mesh.faces},
                {"components", mesh.components},
+               {"closed", mesh.closed},
+               {"orientable", mesh.orientable},
+               {"genus", mesh.genus ? Json(*mesh.genus) : Json()},
                {"euler_characteristic", mesh.eulerCharacteristic},
                {"boundary_loops", mesh.boundaryLoops},
                {"face_sizes", histogramJson(mesh.faceSizes)},
@@ -50,6 +57,23 @@ Json toJson(const std::string& name, const MeshSummary& mesh) {
                {"defects", Json::object()}};
   for (const auto& [kind, count] : countByKind(mesh.defects))
     json["defects"][defectName(kind)] = count;
+  return json;
+}
+
+Json toJson(const SoundReport& report) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < kRepairKindCount; ++k) {
+    const RepairAction& action = report.repair.actions[k];
+    if (action.count > 0)
+      json[repairName(static_cast<RepairKind>(k))] = {{"count", action.count},
+                                                      {"first", action.message}};
+  }
+  const OrientReport& orient = report.orient;
+  if (orient.flippedFaces > 0)
+    json["flipped faces"] = {{"count", orient.flippedFaces}, {"first", orient.firstFlipped}};
+  if (!orient.oneSided.empty())
+    json["doubled one-sided components"] = {{"count", orient.oneSided.size()},
+                                            {"first", orient.oneSided[0]}};
   return json;
 }
 
@@ -73,28 +97,69 @@ std::string histogramText(const std::map<std::uint64_t, std::uint64_t>& histogra
   return text.str();
 }
 
-void print(const std::string& name, const MeshSummary& mesh) {
-  std::cout << "  mesh " << name << ": " << mesh.points << " vertices, " << mesh.edges << " edges, "
-            << mesh.faces << " faces, " << mesh.components
-            << (mesh.components == 1 ? " component" : " components") << ", Euler characteristic "
-            << mesh.eulerCharacteristic << '\n';
-  std::cout << "    corners per face  " << histogramText(mesh.faceSizes) << '\n';
-  std::cout << "    valence           " << histogramText(mesh.valences) << '\n';
-  std::cout << "    box               (" << mesh.box.low.transpose() << ") to ("
-            << mesh.box.high.transpose() << ")\n";
-  if (mesh.boundaryLoops.empty()) {
-    std::cout << "    boundary          none: closed\n";
-  } else {
-    std::uint64_t edges = 0;
-    for (const auto loop : mesh.boundaryLoops) edges += loop;
-    std::cout << "    boundary          " << mesh.boundaryLoops.size()
-              << (mesh.boundaryLoops.size() == 1 ? " loop" : " loops") << " of " << edges
-              << " edges in all\n";
+std::string counted(std::uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string surfaceText(const MeshSummary& mesh) {
+  std::string text = mesh.closed ? "closed, " : "open, ";
+  text += mesh.orientable ? "orientable, " : "not orientable, ";
+  if (mesh.genus) text += "genus " + std::to_string(*mesh.genus) + ", ";
+  return text + "Euler characteristic " + std::to_string(mesh.eulerCharacteristic);
+}
+
+std::string boundaryText(const std::vector<std::uint64_t>& loops) {
+  constexpr std::size_t kMost = 8;
+  std::string text = counted(loops.size(), "loop") + " of ";
+  if (loops.size() > kMost) {
+    const auto [least, most] = std::minmax_element(loops.begin(), loops.end());
+    const auto all = std::accumulate(loops.begin(), loops.end(), std::uint64_t{0});
+    return text + std::to_string(*least) + " to " + counted(*most, "edge") + ", " +
+           std::to_string(all) + " in all";
   }
+  for (std::size_t k = 0; k < loops.size(); ++k)
+    text += (k > 0 ? ", " : "") + std::to_string(loops[k]);
+  return text + (loops.size() == 1 && loops[0] == 1 ? " edge" : " edges");
+}
+
+void print(const std::string& title, const MeshSummary& mesh) {
+  std::cout << "  " << title << ": " << mesh.points << " vertices, " << mesh.edges << " edges, "
+            << mesh.faces << " faces, " << counted(mesh.components, "component") << '\n'
+            << "    surface           " << surfaceText(mesh) << '\n'
+            << "    corners per face  " << histogramText(mesh.faceSizes) << '\n'
+            << "    valence           " << histogramText(mesh.valences) << '\n'
+            << "    box               (" << mesh.box.low.transpose() << ") to ("
+            << mesh.box.high.transpose() << ")\n";
+  if (!mesh.closed)
+    std::cout << "    boundary          " << boundaryText(mesh.boundaryLoops) << '\n';
   for (const auto& [kind, count] : countByKind(mesh.defects))
     std::cout << "    defect            " << defectName(kind) << ": " << count << '\n';
   for (const Defect& defect : mesh.defects)
     if (!defect.message.empty()) std::cout << "      " << defect.message << '\n';
+}
+
+/// A mesh as it is, what preparation does to it, and what `vox convert` then sees.
+Json describe(const SceneObject& object, double weldTolerance, bool json) {
+  const MeshSummary input = summarize(object.mesh);
+  RepairOptions options;
+  options.weldTolerance = weldTolerance;
+  SoundReport report;
+  const MeshSummary prepared = summarize(soundMesh(object.mesh, options, report));
+  if (json) {
+    Json all = {{"name", object.name}};
+    all.update(toJson(input));
+    all["repair"] = toJson(report);
+    all["prepared"] = toJson(prepared);
+    return all;
+  }
+  print("mesh " + object.name, input);
+  const std::string done = summary(report);
+  std::cout << "    repair            " << (done.empty() ? "none needed" : done) << '\n';
+  if (prepared.faces == 0)
+    std::cout << "  after repair: nothing is left\n";
+  else if (!done.empty())
+    print("after repair", prepared);
+  return {};
 }
 
 void print(const GridSummary& grid) {
@@ -111,27 +176,26 @@ void print(const GridSummary& grid) {
     if (key.starts_with("vox_")) std::cout << "    " << key << "  " << value << '\n';
 }
 
-Json describe(const std::string& file, bool json) {
+Json describe(const std::string& file, const Options& options) {
   Json all = {{"file", file}};
-  if (!json) std::cout << file << '\n';
+  if (!options.json) std::cout << file << '\n';
   if (lowerExtension(file) == ".vdb") {
     for (const GridSummary& grid : summarizeVdb(file)) {
       all["grids"].push_back(toJson(grid));
-      if (!json) print(grid);
+      if (!options.json) print(grid);
     }
     return all;
   }
-  for (const SceneObject& object : readScene(file).objects) {
-    const MeshSummary mesh = summarize(object.mesh);
-    all["meshes"].push_back(toJson(object.name, mesh));
-    if (!json) print(object.name, mesh);
-  }
+  const Scene scene = readScene(file);
+  const double weld = options.weldTolerance.value_or(scene.weldTolerance.value_or(0));
+  for (const SceneObject& object : scene.objects)
+    all["meshes"].push_back(describe(object, weld, options.json));
   return all;
 }
 
 int run(const Options& options) {
   Json all = Json::array();
-  for (const std::string& file : options.files) all.push_back(describe(file, options.json));
+  for (const std::string& file : options.files) all.push_back(describe(file, options));
   if (options.json) std::cout << all.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   return 0;
 }
@@ -144,6 +208,7 @@ Action addInfo(CLI::App& app) {
   command->add_option("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)")
       ->required();
   command->add_flag("--json", options->json, "Print JSON");
+  addWeldOption(*command, options->weldTolerance);
   return [options] { return run(*options); };
 }
 

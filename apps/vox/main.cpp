@@ -9,6 +9,8 @@
 
 #include <iostream>
 #include <new>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -57,6 +59,19 @@ std::string explainExtras(const CLI::App& app) {
   return message + " (see " + (chosen.empty() ? "vox" : "vox " + command.get_name()) + " --help)";
 }
 
+/// The first argument that gives a value to a switch: --force=maybe.
+std::string switchWithValue(const CLI::App& app, std::span<char*> arguments) {
+  for (const std::string argument : arguments) {
+    const std::size_t equals = argument.find('=');
+    if (equals == std::string::npos) continue;
+    for (const CLI::App* command : app.get_subcommands({})) {
+      const CLI::Option* option = command->get_option_no_throw(argument.substr(0, equals));
+      if (option != nullptr && option->get_items_expected_max() == 0) return argument;
+    }
+  }
+  return {};
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Smooth voxel models in OpenVDB from irregular polygon meshes.\n"
@@ -79,6 +94,10 @@ int run(int argc, char** argv) {
     // A mistyped option is the likelier cause of one that is missing.
     const bool extras = !app.remaining(/*recurse=*/true).empty();
     return fail(extras ? explainExtras(app) : error.what(), kUsage);
+  } catch (const std::logic_error&) {  // what CLI11 lets through for --force=maybe
+    const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
+    return fail("a switch takes no value but true or false: " + switchWithValue(app, arguments),
+                kUsage);
   }
   for (const auto& [name, action] : actions)
     if (app.got_subcommand(name)) return action();

@@ -152,6 +152,25 @@ SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments) {
   return surface;
 }
 
+void addWeldOption(CLI::App& command, std::optional<double>& tolerance) {
+  command
+      .add_option_function<double>(
+          "--weld", [&tolerance](double distance) { tolerance = distance; },
+          "Join vertices up to this far apart, in world units (default: the scene's, or 0: those "
+          "at exactly the same place)")
+      ->type_name("TOL")
+      ->group("Repair");
+}
+
+void addStrictOption(CLI::App& command, std::optional<bool>& strict) {
+  command
+      .add_flag_function(
+          "--strict", [&strict](std::int64_t count) { strict = count > 0; },
+          "Refuse a mesh that needs any repair or turning of faces (default: the scene's, or "
+          "repair it and say what was done)")
+      ->group("Repair");
+}
+
 std::vector<GridKind> parseGrids(const std::string& names) {
   std::vector<GridKind> grids;
   std::istringstream list(names);

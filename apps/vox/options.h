@@ -3,6 +3,7 @@
 #include "libvox/grid/grid_kind.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/smoothing.h"
+#include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
 #include "libvox/pipeline/surface.h"
 
@@ -50,6 +51,12 @@ struct SubmeshArguments {
 void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments);
 /// @throws UsageError
 SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments);
+
+/// --weld, as said.
+void addWeldOption(CLI::App& command, std::optional<double>& tolerance);
+
+/// --strict, as said; --strict=false overrides a scene.
+void addStrictOption(CLI::App& command, std::optional<bool>& strict);
 
 /// "density,mask" as grids.
 /// @throws UsageError  an unknown name

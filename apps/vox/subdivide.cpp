@@ -11,6 +11,7 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace vox::app {
 namespace {
@@ -20,6 +21,8 @@ struct Options {
   std::string output;
   int levels = 0;
   SmoothingArguments smoothing;
+  std::optional<double> weldTolerance;
+  std::optional<bool> strict;
   CommonOptions common;
 };
 
@@ -46,7 +49,8 @@ void write(const Options& options, const PolygonMesh& mesh, Progress& progress) 
 
 int run(const Options& options) {
   if (!isStdout(options.output)) meshFormatFor(options.output);
-  const SmoothingOptions smoothing = parseSmoothing(options.smoothing);
+  const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
+                                          options.strict};
   ProgressBar bar(!options.common.quiet);
   const Scene scene = readScene(options.input);
   requireOutput(options.output, options.common, scene);
@@ -56,7 +60,7 @@ int run(const Options& options) {
   Refinement refined;
   {
     const CancelOnSignal cancelOnSignal(progress);
-    refined = refine(scene, options.levels, smoothing, runOptions);
+    refined = refine(scene, options.levels, preparation, runOptions);
     write(options, refined.mesh, progress);
     progress.finish();
   }
@@ -92,6 +96,8 @@ Action addSubdivide(CLI::App& app) {
       ->type_name("K")
       ->group("Output");
   addSmoothingOptions(*command, options->smoothing);
+  addWeldOption(*command, options->weldTolerance);
+  addStrictOption(*command, options->strict);
   addCommonOptions(*command, options->common);
   return [options] { return run(*options); };
 }

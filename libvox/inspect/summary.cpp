@@ -6,38 +6,84 @@
 #include "libvox/io/input_file.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
+#include "libvox/mesh/winding_forest.h"
 
 #include <openvdb/openvdb.h>
 
+#include <algorithm>
 #include <fstream>
 #include <numeric>
+#include <span>
 
 namespace vox {
 namespace {
 
-/// Root of a set in a forest of faces, with path halving.
-Index rootOf(std::vector<Index>& parent, Index f) {
-  while (parent[f] != f) f = parent[f] = parent[parent[f]];
-  return f;
+using Edge = std::span<const EdgeCorner>;
+
+/// Components and orientability. Edges of three faces and more join, but say nothing of winding.
+void findComponents(const PolygonMesh& mesh, const Adjacency& adjacency,
+                    const std::vector<EdgeCorner>& edges, MeshSummary& summary) {
+  WindingForest faces(mesh.faceCount());
+  const auto faceOf = [&](const EdgeCorner& corner) { return adjacency.cornerFace[corner.corner]; };
+  forEachEdge(edges, [&](Edge edge) {
+    if (edge.size() != 2 || edge[0].low == edge[0].high) return;
+    const bool against = mesh.faceVertices[edge[0].corner] == mesh.faceVertices[edge[1].corner];
+    if (faces.contradicts(faceOf(edge[0]), faceOf(edge[1]), against)) summary.orientable = false;
+    faces.unite(faceOf(edge[0]), faceOf(edge[1]), against);
+  });
+  forEachEdge(edges, [&](Edge edge) {
+    for (const EdgeCorner& corner : edge) faces.unite(faceOf(corner), faceOf(edge[0]), false);
+  });
+  for (Index f = 0; f < mesh.faceCount(); ++f) summary.components += faces.find(f).root == f;
 }
 
-void countEdges(const PolygonMesh& mesh, const Adjacency& adjacency, MeshSummary& summary) {
-  std::vector<Index> component(mesh.faceCount());
-  std::iota(component.begin(), component.end(), 0);
+void countValences(const PolygonMesh& mesh, const std::vector<EdgeCorner>& edges,
+                   MeshSummary& summary) {
   std::vector<std::uint64_t> valence(mesh.pointCount(), 0);
-
-  forEachEdge(cornersByEdge(mesh, adjacency), [&](std::span<const EdgeCorner> edge) {
+  forEachEdge(edges, [&](Edge edge) {
     ++summary.edges;
     ++valence[edge[0].low];
     ++valence[edge[0].high];
-    for (const EdgeCorner& corner : edge)
-      component[rootOf(component, adjacency.cornerFace[corner.corner])] =
-          rootOf(component, adjacency.cornerFace[edge[0].corner]);
   });
+  for (const auto count : valence)
+    if (count > 0) ++summary.valences[count];
+}
 
-  for (Index f = 0; f < mesh.faceCount(); ++f) summary.components += component[f] == f;
-  for (const auto edges : valence)
-    if (edges > 0) ++summary.valences[edges];
+void measureBoundary(const PolygonMesh& mesh, const std::vector<EdgeCorner>& edges,
+                     MeshSummary& summary) {
+  std::vector<Index> parent(mesh.pointCount());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto rootOf = [&](Index v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  const auto isBoundary = [](Edge edge) { return edge.size() == 1 && edge[0].low != edge[0].high; };
+  forEachEdge(edges, [&](Edge edge) {
+    if (isBoundary(edge)) parent[rootOf(edge[0].low)] = rootOf(edge[0].high);
+  });
+  std::vector<Index> loopOf(mesh.pointCount(), kNone);  // by root
+  forEachEdge(edges, [&](Edge edge) {
+    if (!isBoundary(edge)) return;
+    Index& loop = loopOf[rootOf(edge[0].low)];
+    if (loop == kNone) {
+      loop = static_cast<Index>(summary.boundaryLoops.size());
+      summary.boundaryLoops.push_back(0);
+    }
+    ++summary.boundaryLoops[loop];
+  });
+  summary.closed = summary.boundaryLoops.empty();
+}
+
+/// From the rest of the summary.
+void findGenus(MeshSummary& summary) {
+  const bool manifold =
+      std::all_of(summary.defects.begin(), summary.defects.end(), [](const Defect& defect) {
+        return defect.kind == DefectKind::kInconsistentWinding ||
+               defect.kind == DefectKind::kUnusedVertex;
+      });
+  if (summary.closed && summary.orientable && manifold)
+    summary.genus =
+        (2 * static_cast<std::int64_t>(summary.components) - summary.eulerCharacteristic) / 2;
 }
 
 /// A file of ours names the hash of its content; OpenVDB itself trusts what it reads.
@@ -79,9 +125,10 @@ MeshSummary summarize(const PolygonMesh& mesh) {
   summary.faces = mesh.faceCount();
   summary.box = usedBox(mesh);
   for (Index f = 0; f < mesh.faceCount(); ++f) ++summary.faceSizes[mesh.faceSize(f)];
-  countEdges(mesh, adjacency, summary);
-  for (const auto& loop : boundaryLoops(mesh, adjacency))
-    summary.boundaryLoops.push_back(loop.size());
+  const std::vector<EdgeCorner> edges = cornersByEdge(mesh, adjacency);
+  findComponents(mesh, adjacency, edges, summary);
+  countValences(mesh, edges, summary);
+  measureBoundary(mesh, edges, summary);
 
   std::int64_t usedPoints = 0;
   for (const auto& [valence, points] : summary.valences)
@@ -89,6 +136,7 @@ MeshSummary summarize(const PolygonMesh& mesh) {
   summary.eulerCharacteristic = usedPoints - static_cast<std::int64_t>(summary.edges) +
                                 static_cast<std::int64_t>(summary.faces);
   summary.defects = findDefects(mesh, adjacency);
+  findGenus(summary);
   return summary;
 }
 

@@ -8,20 +8,28 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace vox {
 
-/// What there is to know about a mesh. Edges are undirected and counted once whatever their number
-/// of faces; points no face uses do not count towards the Euler characteristic.
+/// What there is to know about a mesh, whatever the winding of its faces. Edges are undirected and
+/// counted once whatever their number of faces; points no face uses do not count towards the Euler
+/// characteristic.
 struct MeshSummary {
   std::uint64_t points = 0;
   std::uint64_t faces = 0;
   std::uint64_t edges = 0;
-  std::uint64_t components = 0;                      ///< of faces joined through edges
-  std::int64_t eulerCharacteristic = 0;              ///< used points - edges + faces
-  std::vector<std::uint64_t> boundaryLoops;          ///< edges of each; empty for a closed mesh
+  std::uint64_t components = 0;  ///< of faces joined through edges
+  bool closed = true;            ///< no edge has only one face
+  bool orientable = true;        ///< faces can be wound so that edges of two faces run both ways
+  /// Handles of all components together: of closed orientable meshes of edges of two faces and
+  /// vertices of one fan.
+  std::optional<std::int64_t> genus;
+  std::int64_t eulerCharacteristic = 0;  ///< used points - edges + faces
+  /// Number of edges in each chain of edges of one face that meet in vertices, by lowest edge.
+  std::vector<std::uint64_t> boundaryLoops;
   std::map<std::uint64_t, std::uint64_t> faceSizes;  ///< corners of a face -> number of faces
   std::map<std::uint64_t, std::uint64_t> valences;   ///< edges at a used point -> number of points
   Box box;                                           ///< of the points that faces use, world units

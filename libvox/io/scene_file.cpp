@@ -78,6 +78,11 @@ std::string requireString(const SceneText& scene, const toml::node& node, const 
   scene.fail(node, name + " must be a string");
 }
 
+bool requireBoolean(const SceneText& scene, const toml::node& node, const std::string& name) {
+  if (const auto* flag = node.as_boolean()) return flag->get();
+  scene.fail(node, name + " must be true or false");
+}
+
 double requireNumber(const SceneText& scene, const toml::node& node, const std::string& name) {
   if (node.is_number()) {
     const double number = *node.value<double>();
@@ -120,7 +125,7 @@ std::vector<GridKind> readGrids(const SceneText& scene, const toml::node& node) 
 }
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(text, table, "[convert]", {"dim", "voxel_size", "grids"});
+  requireKnownKeys(text, table, "[convert]", {"dim", "voxel_size", "grids", "weld", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -130,6 +135,12 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
     if (scene.dim) text.fail(*size, "dim and voxel_size cannot both be given");
   }
   if (const auto* grids = table.get("grids")) scene.grids = readGrids(text, *grids);
+  if (const auto* weld = table.get("weld")) {
+    scene.weldTolerance = requireNumber(text, *weld, "weld");
+    if (*scene.weldTolerance < 0) text.fail(*weld, "weld must be 0 or more");
+  }
+  if (const auto* strict = table.get("strict"))
+    scene.strict = requireBoolean(text, *strict, "strict");
 }
 
 // [[object]]

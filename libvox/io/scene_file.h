@@ -22,6 +22,8 @@ struct Scene {
   std::optional<int> dim;           ///< [convert] dim: voxels along the longest side
   std::optional<double> voxelSize;  ///< [convert] voxel_size: world units
   std::optional<std::vector<GridKind>> grids;
+  std::optional<double> weldTolerance;       ///< [convert] weld: world units
+  std::optional<bool> strict;                ///< [convert] strict: no repair
   std::vector<SceneObject> objects;          ///< at least one
   std::vector<std::filesystem::path> files;  ///< the input file, then the meshes it names
   std::string inputHash;  ///< of the contents of these files; empty if there are none

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <span>
 
 namespace vox {
 namespace {
@@ -61,28 +63,45 @@ void addEdgeDefect(const Adjacency& adjacency, std::span<const EdgeCorner> edge,
     });
 }
 
-void findEdgeDefects(const PolygonMesh& mesh, const Adjacency& adjacency, DefectList& defects) {
-  forEachEdge(cornersByEdge(mesh, adjacency), [&](std::span<const EdgeCorner> edge) {
+void findEdgeDefects(std::span<const EdgeCorner> edges, const Adjacency& adjacency,
+                     DefectList& defects) {
+  forEachEdge(edges, [&](std::span<const EdgeCorner> edge) {
     const bool repeatedCorner = edge[0].low == edge[0].high;  // reported with its face
     const bool separated = adjacency.twin[edge[0].corner] == kNone;
     if (edge.size() > 1 && separated && !repeatedCorner) addEdgeDefect(adjacency, edge, defects);
   });
 }
 
-/// Bow ties and unused vertexs, from the number of fans at each vertex.
-void findVertexDefects(const PolygonMesh& mesh, const Adjacency& adjacency, DefectList& defects) {
+/// Number of fans at each vertex: sets of its corners that edges of two faces join, whatever the
+/// winding of the faces.
+std::vector<Index> countFans(const PolygonMesh& mesh, std::span<const EdgeCorner> edges,
+                             const Adjacency& adjacency) {
+  std::vector<Index> parent(mesh.cornerCount());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto rootOf = [&](Index c) {
+    while (parent[c] != c) c = parent[c] = parent[parent[c]];
+    return c;
+  };
+  const auto cornerAt = [&](Index v, Index edge) {
+    return mesh.faceVertices[edge] == v ? edge : nextCorner(mesh, adjacency, edge);
+  };
+  forEachEdge(edges, [&](std::span<const EdgeCorner> edge) {
+    if (edge.size() != 2 || edge[0].low == edge[0].high) return;
+    for (const Index v : {edge[0].low, edge[0].high})
+      parent[rootOf(cornerAt(v, edge[0].corner))] = rootOf(cornerAt(v, edge[1].corner));
+  });
   std::vector<Index> fans(mesh.pointCount(), 0);
-  std::vector<bool> seen(mesh.cornerCount(), false);
-  for (Index c = 0; c < mesh.cornerCount(); ++c) {
-    if (seen[c]) continue;
-    ++fans[mesh.faceVertices[c]];
-    for (const Index k : oneRing(mesh, adjacency, c).corners) seen[k] = true;
-  }
-  for (Index v = 0; v < mesh.pointCount(); ++v)
+  for (Index c = 0; c < mesh.cornerCount(); ++c) fans[mesh.faceVertices[c]] += parent[c] == c;
+  return fans;
+}
+
+/// Bow ties and unused vertices, from the number of fans at each vertex.
+void findVertexDefects(const std::vector<Index>& fans, DefectList& defects) {
+  for (Index v = 0; v < fans.size(); ++v)
     if (fans[v] > 1)
       defects.add(DefectKind::kBowTieVertex, v,
                   [&] { return "vertex " + str(v) + " joins " + str(fans[v]) + " fans of faces"; });
-  for (Index v = 0; v < mesh.pointCount(); ++v)
+  for (Index v = 0; v < fans.size(); ++v)
     if (fans[v] == 0)
       defects.add(DefectKind::kUnusedVertex, v,
                   [&] { return "vertex " + str(v) + " belongs to no face"; });
@@ -122,8 +141,9 @@ std::vector<Defect> findDefects(const PolygonMesh& mesh, const Adjacency& adjace
                                 std::size_t mostPerKind) {
   DefectList defects(mostPerKind);
   findRepeatedCorners(mesh, defects);
-  findEdgeDefects(mesh, adjacency, defects);
-  findVertexDefects(mesh, adjacency, defects);
+  const std::vector<EdgeCorner> edges = cornersByEdge(mesh, adjacency);
+  findEdgeDefects(edges, adjacency, defects);
+  findVertexDefects(countFans(mesh, edges, adjacency), defects);
   return defects.take();
 }
 

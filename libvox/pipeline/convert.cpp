@@ -66,16 +66,16 @@ GridTransform chooseTransform(const Box& box, const Scene& scene, const ConvertO
   return transform;
 }
 
-PolygonMesh inIndexSpace(PolygonMesh mesh, const GridTransform& transform) {
+void moveToIndexSpace(PolygonMesh& mesh, const GridTransform& transform) {
   for (Vec3d& point : mesh.points) point = transform.toIndex(point);
-  return mesh;
 }
 
 /// What a user may not expect of an open mesh.
 void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, ConvertReport& report) {
   const std::size_t loops = boundaryLoops(level.mesh, level.adjacency).size();
   if (loops == 0) return;
-  constexpr const char* kWhy = ": faces are neighbours only where their vertices coincide exactly";
+  constexpr const char* kWhy =
+      ": faces are neighbours only where their vertices coincide exactly; --weld joins near ones";
   const bool separate = loops >= level.mesh.faceCount();
   if (level.boundary == BoundaryStage::kPlain)
     report.warnings.push_back(name + " is open: it has " + std::to_string(loops) + " boundary " +
@@ -141,6 +141,7 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
   if (smoothing.interpolate) text << " interpolate=" << interpolateName(*smoothing.interpolate);
   if (smoothing.interpolatedVertices)
     text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
+  if (options.weldTolerance) text << " weld=" << *options.weldTolerance;
   return text.str();
 }
 
@@ -228,10 +229,7 @@ void notePreparation(const PreparedObject& prepared, const GridTransform& transf
   part.interpolation = prepared.interpolation;
   report.warnings.insert(report.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   warnOfBoundary(part.name, prepared.base, report);
-  Box box = usedBox(prepared.base.mesh);
-  box.low *= transform.voxelSize;
-  box.high *= transform.voxelSize;
-  requireInRange(box, transform);
+  requireInRange(usedBox(prepared.base.mesh), transform);
 }
 
 /// What became of a surface, for the report.
@@ -259,9 +257,9 @@ openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& 
     {
       progress.begin("prepare", workOfPreparing(object, options));
       const StageTimer timer(report.prepareSeconds);
-      prepared = prepare(scene, object, inIndexSpace(object.mesh, transform), options.smoothing,
-                         budget, progress);
+      prepared = prepare(scene, object, options, budget, progress);
       notePreparation(prepared, transform, part, report);
+      moveToIndexSpace(prepared.base.mesh, transform);
       requireMaskFits(prepared.base.mesh, transform, longestSide, budget);
     }
     progress.begin("surface", workOfSurface(area, object.mesh.cornerCount()));

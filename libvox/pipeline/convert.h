@@ -2,7 +2,7 @@
 
 #include "libvox/grid/grid_kind.h"
 #include "libvox/io/scene_file.h"
-#include "libvox/mesh/smoothing.h"
+#include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/prepare/interpolate.h"
@@ -29,10 +29,9 @@ class GridBase;
 namespace vox {
 
 /// How to convert. What is not set here is taken from the scene, then from the default.
-struct ConvertOptions {
+struct ConvertOptions : PreparationOptions {
   std::optional<int> dim;           ///< voxels along the longest side of the input; default 256
   std::optional<double> voxelSize;  ///< world units; overrides dim
-  SmoothingOptions smoothing;       ///< default: boundary extended, nothing interpolated
   std::optional<std::vector<GridKind>> grids;  ///< default: density
   SurfaceOptions surface;
   RunOptions run;
@@ -49,7 +48,7 @@ struct ObjectReport {
   std::uint64_t vertices = 0;         ///< vertices rounded to voxels, each at its own level
   LevelCounts verticesOfLevel{};      ///< how many of them at each level
   std::uint64_t activeVoxels = 0;     ///< that no object before it has
-  InterpolationReport interpolation;  ///< its residual in voxels
+  InterpolationReport interpolation;  ///< its residual in world units
 };
 
 struct ConvertReport {
@@ -74,10 +73,9 @@ struct Conversion {
 /// The result does not depend on the number of threads, nor on how the surface is cut into
 /// submeshes. The progress keeps a share for writing the grids.
 ///
-/// @throws UsageError  dim, voxel size, number of threads or smoothing is nonsense
+/// @throws UsageError  dim, voxel size, number of threads, smoothing or weld tolerance is nonsense
 /// @throws InputError  the input has no extent and no voxel size is given
-/// @throws MeshError   an object is not an oriented manifold, or a vertex cannot be interpolated;
-///   the message names file, object and element
+/// @throws MeshError   as prepare (refine.h)
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid
 /// @throws Cancelled   options.run.progress says so
 Conversion convert(const Scene& scene, const ConvertOptions& options);

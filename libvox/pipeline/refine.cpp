@@ -6,8 +6,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/pipeline/work.h"
-#include "libvox/prepare/orient.h"
-#include "libvox/prepare/repair.h"
+#include "libvox/prepare/sound.h"
 
 #include <cmath>
 #include <span>
@@ -53,17 +52,22 @@ void requireConsistent(const Scene& scene, const SceneObject& object,
                      "; use interpolate_vertices in the scene");
 }
 
-/// The mesh as an oriented manifold, with one line of what had to be done for it.
-PolygonMesh manifoldOf(PolygonMesh mesh, const std::string& name, VertexOrigin& origin,
-                       std::vector<std::string>& warnings) {
-  RepairReport repaired;
-  OrientReport oriented;
-  mesh = orient(repair(std::move(mesh), {}, repaired), oriented);
-  if (mesh.faceCount() == 0) throw MeshError("nothing is left after repair: " + summary(repaired));
-  for (const std::string& done : {summary(repaired), summary(oriented)})
-    if (!done.empty()) warnings.push_back(name + ": " + done);
-  origin.weldedTo = std::move(repaired.weldedTo);
-  for (const Index v : oriented.pointOrigin) origin.of.push_back(repaired.pointOrigin[v]);
+/// The mesh of an object made sound, with one line of what had to be done for it.
+PolygonMesh soundMeshOf(const Scene& scene, const SceneObject& object,
+                        const PreparationOptions& options, VertexOrigin& origin,
+                        std::vector<std::string>& warnings) {
+  RepairOptions repair;
+  repair.weldTolerance = options.weldTolerance.value_or(scene.weldTolerance.value_or(0));
+  SoundReport report;
+  PolygonMesh mesh = soundMesh(object.mesh, repair, report);
+  const std::string done = summary(report);
+  if (options.strict.value_or(scene.strict.value_or(false)) && !done.empty())
+    throw MeshError("needs repair, which strict forbids: " + firstAction(report) +
+                    "; in all: " + done);
+  if (mesh.faceCount() == 0) throw MeshError("nothing is left after repair: " + done);
+  if (!done.empty()) warnings.push_back(object.name + ": " + done);
+  origin.weldedTo = std::move(report.repair.weldedTo);
+  origin.of = std::move(report.orient.pointOrigin);
   return mesh;
 }
 
@@ -92,10 +96,10 @@ std::vector<Index> verticesFrom(std::span<const Index> inputVertices, const Vert
   return found;
 }
 
-/// Peak of interpolation: mostly one value per corner, twice, and the vectors of the solver.
+/// Peak of interpolation: an image per corner, and the vectors of the solver.
 std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
   constexpr std::uint64_t kPerCorner = sizeof(Vec3d) + sizeof(Index);
-  constexpr std::uint64_t kPerVertex = 3 * sizeof(Vec3d) + 8 * sizeof(double);
+  constexpr std::uint64_t kPerVertex = 6 * sizeof(Vec3d) + 4 * sizeof(Index);
   return mesh.cornerCount() * kPerCorner + mesh.pointCount() * kPerVertex;
 }
 
@@ -148,19 +152,19 @@ struct RefineWork {
   static constexpr double kWritingPerCorner = 200;
 };
 
-Refinement refineAll(const Scene& scene, int levels, const SmoothingOptions& smoothing,
-                     const RunOptions& options, Progress& progress) {
+Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& preparation,
+                     const RunOptions& run, Progress& progress) {
   for (const SceneObject& object : scene.objects) {
-    const RefineWork work(object, levels, smoothing);
+    const RefineWork work(object, levels, preparation.smoothing);
     progress.plan(work.prepare + work.subdivide + work.write);
   }
-  MemoryBudget budget(options.maxMemory);
+  MemoryBudget budget(run.maxMemory);
   Refinement all;
   for (const SceneObject& object : scene.objects) {
     budget.take(bytesOf(object.mesh), "the input", kAdvice);
-    const RefineWork work(object, levels, smoothing);
+    const RefineWork work(object, levels, preparation.smoothing);
     progress.begin("prepare", work.prepare);
-    PreparedObject prepared = prepare(scene, object, object.mesh, smoothing, budget, progress);
+    PreparedObject prepared = prepare(scene, object, preparation, budget, progress);
     progress.begin("subdivide", work.subdivide);
     PolygonMesh part = subdivided(std::move(prepared.base), levels, budget, progress).mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
@@ -203,21 +207,21 @@ void requireValidScene(const Scene& scene) {
     namingObject(scene, object, [&] { requireValidArrays(object.mesh); });
 }
 
-PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMesh mesh,
-                       const SmoothingOptions& smoothing, const MemoryBudget& budget,
+PreparedObject prepare(const Scene& scene, const SceneObject& object,
+                       const PreparationOptions& options, const MemoryBudget& budget,
                        Progress& progress) {
-  const SmoothingOptions own = overriding(smoothing, object.smoothing);
-  requireConsistent(scene, object, smoothing, own);
+  const SmoothingOptions own = overriding(options.smoothing, object.smoothing);
+  requireConsistent(scene, object, options.smoothing, own);
   constexpr std::uint64_t kPerCorner = 4 * sizeof(EdgeCorner) + 12 * sizeof(Index);
-  budget.require(bytesOf(mesh) + mesh.cornerCount() * kPerCorner, "finding neighbours",
-                 "raise --max-memory");
+  budget.require(bytesOf(object.mesh) + object.mesh.cornerCount() * kPerCorner,
+                 "finding neighbours", "raise --max-memory");
   PreparedObject prepared;
   SubdivisionLevel& base = prepared.base;
   namingObject(scene, object, [&] {
     VertexOrigin origin;
-    mesh = manifoldOf(std::move(mesh), object.name, origin, prepared.warnings);
+    PolygonMesh sound = soundMeshOf(scene, object, options, origin, prepared.warnings);
     progress.check();
-    base = baseLevel(std::move(mesh), own.boundary.value_or(BoundaryRule::kExtend));
+    base = baseLevel(std::move(sound), own.boundary.value_or(BoundaryRule::kExtend));
     progress.check();
     if (!interpolates(own)) return;
     progress.done(kPartBeforeInterpolation);
@@ -231,14 +235,14 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMes
   return prepared;
 }
 
-Refinement refine(const Scene& scene, int levels, const SmoothingOptions& smoothing,
-                  const RunOptions& options) {
+Refinement refine(const Scene& scene, int levels, const PreparationOptions& preparation,
+                  const RunOptions& run) {
   if (levels < 0) throw UsageError("--levels must be 0 or more, not " + std::to_string(levels));
   requireValidScene(scene);
   Progress unwatched;
-  Progress& progress = options.progress != nullptr ? *options.progress : unwatched;
-  return onThreads(options.threads,
-                   [&] { return refineAll(scene, levels, smoothing, options, progress); });
+  Progress& progress = run.progress != nullptr ? *run.progress : unwatched;
+  return onThreads(run.threads,
+                   [&] { return refineAll(scene, levels, preparation, run, progress); });
 }
 
 }  // namespace vox

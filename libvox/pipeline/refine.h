@@ -4,7 +4,7 @@
 #include "libvox/core/progress.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/polygon_mesh.h"
-#include "libvox/mesh/smoothing.h"
+#include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
 #include "libvox/prepare/interpolate.h"
 #include "libvox/subdivide/doo_sabin.h"
@@ -21,15 +21,15 @@ struct Refinement {
 };
 
 /// All objects of a scene as one mesh, after K Doo-Sabin steps; K = 0 gives the control meshes:
-/// repaired, oriented, and lifted where vertices are interpolated. What `smoothing` sets goes
-/// before what the objects say. The progress keeps a share for writing the mesh: beginLast.
+/// repaired, oriented, and lifted where vertices are interpolated. The progress keeps a share for
+/// writing the mesh: beginLast.
 /// @throws UsageError  levels < 0; as prepare
-/// @throws MeshError   an object has contradictory arrays or, cannot be prepared; the
-///   message names file, object and element
+/// @throws MeshError   an object has contradictory arrays, or cannot be prepared; the message names
+///   file, object and element
 /// @throws LimitError  not enough memory, or more elements than fit in 32 bits
 /// @throws Cancelled
-Refinement refine(const Scene& scene, int levels, const SmoothingOptions& smoothing,
-                  const RunOptions& options);
+Refinement refine(const Scene& scene, int levels, const PreparationOptions& preparation,
+                  const RunOptions& run);
 
 /// Level 0 of an object, ready to subdivide.
 struct PreparedObject {
@@ -38,16 +38,17 @@ struct PreparedObject {
   std::vector<std::string> warnings;
 };
 
-/// Prepares an object: repair, orientation, interpolation. `mesh` is its mesh, in world or index
-/// space; `smoothing` goes before what the object says. Credits the current stage of `progress`.
+/// Prepares an object in world space: repair, orientation, interpolation. What `options` set goes
+/// before what the scene and the object say. Credits the current stage of `progress`.
 /// @throws UsageError  the boundary is to be interpolated but free; vertices to interpolate are
-///   given for more than one object at once
-/// @throws MeshError   nothing is left after repair, or a vertex cannot be interpolated; the
-///   message names file, object and element
+///   given for more than one object at once; the weld tolerance is negative or not finite
+/// @throws MeshError   something had to be repaired or turned round though `strict` forbids it,
+///   nothing is left after repair, or a vertex cannot be interpolated; the message names file,
+///   object and element
 /// @throws LimitError  not enough memory
 /// @throws Cancelled
-PreparedObject prepare(const Scene& scene, const SceneObject& object, PolygonMesh mesh,
-                       const SmoothingOptions& smoothing, const MemoryBudget& budget,
+PreparedObject prepare(const Scene& scene, const SceneObject& object,
+                       const PreparationOptions& options, const MemoryBudget& budget,
                        Progress& progress);
 
 /// Whether an object interpolates anything, by its own smoothing.

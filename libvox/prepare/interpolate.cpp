@@ -26,10 +26,6 @@ std::vector<Index> verticesToLift(const PolygonMesh& mesh, const std::vector<Ver
   return vertices;
 }
 
-Index countOf(const std::vector<VertexKind>& kinds, VertexKind kind) {
-  return static_cast<Index>(std::count(kinds.begin(), kinds.end(), kind));
-}
-
 }  // namespace
 
 PolygonMesh interpolate(PolygonMesh mesh, const Adjacency& adjacency, Interpolate which,
@@ -38,10 +34,9 @@ PolygonMesh interpolate(PolygonMesh mesh, const Adjacency& adjacency, Interpolat
   const bool interior = which == Interpolate::kInterior || which == Interpolate::kBoth;
   const bool boundary = which == Interpolate::kBoundary || which == Interpolate::kBoth;
   const std::vector<VertexKind> kinds = vertexKinds(mesh, adjacency);
-  if (interior)
-    report.leftOut = countOf(kinds, VertexKind::kTwoFaces) + countOf(kinds, VertexKind::kBowTie);
   if (boundary) {
-    report.boundaryVertices = countOf(kinds, VertexKind::kBoundary);
+    report.boundaryVertices =
+        static_cast<Index>(std::count(kinds.begin(), kinds.end(), VertexKind::kBoundary));
     mesh = interpolateBoundary(std::move(mesh), adjacency);
   }
   const std::vector<Index> vertices = verticesToLift(mesh, kinds, interior, boundary, prescribed);

@@ -1,17 +1,16 @@
-// Lifting by conjugate gradients on the sum of the Doo-Sabin matrices of all faces.
+// Conjugate gradients on the three coordinates at once: they share every pass over the mesh, each
+// has its own steps.
 // Cohen, Kaufman & Wang 1994, section 2.2.
 
 #include "libvox/prepare/lift.h"
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
-#include "libvox/core/unit_root.h"
 #include "libvox/mesh/vertex_kind.h"
-
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
+#include "libvox/prepare/lift_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,21 +18,10 @@
 namespace vox {
 namespace {
 
-class LiftMatrix;
+using Triple = Eigen::Array3d;  // a number for each coordinate
 
-}
-}  // namespace vox
-
-template <>
-struct Eigen::internal::traits<vox::LiftMatrix>
-    : Eigen::internal::traits<Eigen::SparseMatrix<double>> {};
-
-namespace vox {
-namespace {
-
-constexpr Index kFacesPerTask = 1024;
-constexpr Index kVerticesPerTask = 4096;
-constexpr double kTolerance = 1e-13;
+constexpr Index kRowsPerPart = 4096;
+constexpr double kTolerance = 1e-13;  // norm of the residual, relative to the right-hand side
 constexpr int kMostIterations = 100;  // the bound on the condition number promises 40
 
 // Selection
@@ -72,219 +60,122 @@ std::vector<Index> interiorVertices(const PolygonMesh& mesh, const Adjacency& ad
   return sorted;
 }
 
-// Faces
+// Conjugate gradients
 
-/// Cosines and sines for every face size of a mesh, O(C) in all.
-class RootTable {
- public:
-  explicit RootTable(const PolygonMesh& mesh) {
-    Index largest = 0;
-    for (Index f = 0; f < mesh.faceCount(); ++f) largest = std::max(largest, mesh.faceSize(f));
-    begin_.assign(std::size_t{largest} + 1, kNone);
-    for (Index f = 0; f < mesh.faceCount(); ++f) add(mesh.faceSize(f));
-  }
-  const UnitRoot* of(Index n) const { return roots_.data() + begin_[n]; }
-
- private:
-  void add(Index n) {
-    if (begin_[n] != kNone) return;
-    begin_[n] = static_cast<Index>(roots_.size());
-    const auto more = unitRoots(n);
-    roots_.insert(roots_.end(), more.begin(), more.end());
-  }
-
-  std::vector<Index> begin_;
-  std::vector<UnitRoot> roots_;
-};
-
-/// Doo-Sabin image of one value per vertex, for the corners of face f:
-/// U_i = V_i / 4 + 3/4 mean + 1/(2n) (A cos t_i + B sin t_i), in O(n).
-template <class Value>
-void imageOfFace(const PolygonMesh& mesh, Index f, const UnitRoot* roots,
-                 std::span<const Value> values, std::span<Value> image) {
-  const auto face = mesh.face(f);
-  const auto n = static_cast<Index>(face.size());
-  Value sum = values[face[0]];
-  Value sumCosine = sum;
-  Value sumSine = 0.0 * sum;
-  for (Index i = 1; i < n; ++i) {
-    const Value& value = values[face[i]];
-    sum += value;
-    sumCosine += roots[i].cosine * value;
-    sumSine += roots[i].sine * value;
-  }
-  for (Index i = 0; i < n; ++i)
-    image[mesh.faceOffsets[f] + i] =
-        0.25 * values[face[i]] + (0.75 / n) * sum +
-        (0.5 / n) * (roots[i].cosine * sumCosine + roots[i].sine * sumSine);
+/// The sum of work(row) over all rows. Parts of fixed size are summed in parallel and added up in
+/// order, so the bits do not depend on the number of threads.
+template <class Work>
+auto sumOverRows(Index rows, Work&& work) {
+  using Sum = decltype(work(Index{0}));
+  std::vector<Sum> parts((std::size_t{rows} + kRowsPerPart - 1) / kRowsPerPart);
+  forEach(parts.size(), 1, [&](std::size_t part) {
+    const auto begin = static_cast<Index>(part * kRowsPerPart);
+    const Index end = std::min(rows, begin + kRowsPerPart);
+    Sum sum = work(begin);
+    for (Index row = begin + 1; row < end; ++row) sum += work(row);
+    parts[part] = sum;
+  });
+  Sum all = parts[0];
+  for (std::size_t part = 1; part < parts.size(); ++part) all += parts[part];
+  return all;
 }
 
-// System
+Triple times(const Vec3d& a, const Vec3d& b) {
+  return a.array() * b.array();
+}
 
-/// The matrix S, its rows and columns restricted to the lifted vertices.
-class LiftSystem {
+/// Solves S x = b for three columns, scaled by the valences: the scaling for which the bound on the
+/// condition number is proved. A column that has converged stays.
+class Gradients {
  public:
-  LiftSystem(const PolygonMesh& mesh, std::vector<Index> vertices)
-      : mesh_(mesh), roots_(mesh), vertices_(std::move(vertices)) {
-    gatherCorners();
+  /// @param b  at least one row, numbers of a size whose squares neither vanish nor overflow
+  Gradients(LiftSystem& system, std::vector<Vec3d> b)
+      : system_(system),
+        x_(b.size(), Vec3d::Zero()),
+        residual_(std::move(b)),
+        direction_(residual_.size()) {
+    for (Index row = 0; row < system.rows(); ++row)
+      direction_[row] = residual_[row] * (1 / system.valence(row));
+    scaledNorm_ = sumOverRows(system_.rows(),
+                              [&](Index row) { return times(residual_[row], direction_[row]); });
+    norm_ = sumOverRows(system_.rows(),
+                        [&](Index row) { return times(residual_[row], residual_[row]); });
+    limit_ = kTolerance * kTolerance * norm_;
   }
 
-  const std::vector<Index>& vertices() const { return vertices_; }
-  Index size() const { return static_cast<Index>(vertices_.size()); }
-  Index valence(Index row) const { return cornerOffsets_[row + 1] - cornerOffsets_[row]; }
-
-  /// One value per row: the sum of the images of its corners, given one value per vertex of the
-  /// mesh. A row adds in the order of its corners, whoever computes it.
-  template <class Value>
-  std::vector<Value> cornerSums(std::span<const Value> values) const {
-    std::vector<Value> image(mesh_.cornerCount());
-    forEach(mesh_.faceCount(), kFacesPerTask, [&](Index f) {
-      imageOfFace<Value>(mesh_, f, roots_.of(mesh_.faceSize(f)), values, image);
-    });
-    std::vector<Value> sums(size());
-    forEachRow([&](Index row) {
-      Value sum = image[corners_[cornerOffsets_[row]]];
-      for (Index k = cornerOffsets_[row] + 1; k < cornerOffsets_[row + 1]; ++k)
-        sum += image[corners_[k]];
-      sums[row] = sum;
-    });
-    return sums;
-  }
-
-  template <class Work>
-  void forEachRow(Work&& work) const {
-    forEach(size(), kVerticesPerTask, work);
-  }
-
-  /// S x.
-  Eigen::VectorXd times(const Eigen::VectorXd& x) const {
-    std::vector<double> values(mesh_.pointCount(), 0.0);
-    forEachRow([&](Index row) { values[vertices_[row]] = x[row]; });
-    const std::vector<double> sums = cornerSums<double>(values);
-    return Eigen::Map<const Eigen::VectorXd>(sums.data(), x.size());
-  }
-
- private:
-  void gatherCorners() {
-    std::vector<Index> rowOf(mesh_.pointCount(), kNone);
-    for (Index row = 0; row < size(); ++row) rowOf[vertices_[row]] = row;
-    cornerOffsets_.assign(std::size_t{size()} + 1, 0);
-    for (const Index v : mesh_.faceVertices)
-      if (rowOf[v] != kNone) ++cornerOffsets_[rowOf[v] + 1];
-    for (Index row = 0; row < size(); ++row) cornerOffsets_[row + 1] += cornerOffsets_[row];
-    corners_.resize(cornerOffsets_.back());
-    std::vector<Index> slot(cornerOffsets_.begin(), cornerOffsets_.end() - 1);
-    for (Index c = 0; c < mesh_.cornerCount(); ++c) {
-      const Index row = rowOf[mesh_.faceVertices[c]];
-      if (row != kNone) corners_[slot[row]++] = c;
+  /// Steps until every column has converged; @return whether they have.
+  bool run() {
+    for (; iterations_ < kMostIterations; ++iterations_) {
+      if (!norm_.isFinite().all()) return false;
+      if ((norm_ <= limit_).all()) return true;
+      step();
     }
+    return false;
   }
 
-  const PolygonMesh& mesh_;
-  RootTable roots_;
-  std::vector<Index> vertices_;
-  std::vector<Index> cornerOffsets_;  ///< rows + 1: row r has corners_ [offset r, offset r + 1)
-  std::vector<Index> corners_;
-};
-
-/// A LiftSystem as Eigen's solvers want to see a matrix.
-class LiftMatrix : public Eigen::EigenBase<LiftMatrix> {
- public:
-  using Scalar = double;
-  using RealScalar = double;
-  using StorageIndex = int;
-  enum {
-    ColsAtCompileTime = Eigen::Dynamic,
-    MaxColsAtCompileTime = Eigen::Dynamic,
-    IsRowMajor = false
-  };
-
-  explicit LiftMatrix(const LiftSystem& system) : system_(system) {}
-  Eigen::Index rows() const { return system_.size(); }
-  Eigen::Index cols() const { return system_.size(); }
-  const LiftSystem& system() const { return system_; }
-
-  template <class Rhs>
-  Eigen::Product<LiftMatrix, Rhs, Eigen::AliasFreeProduct> operator*(
-      const Eigen::MatrixBase<Rhs>& x) const {
-    return {*this, x.derived()};
-  }
+  int iterations() const { return iterations_; }
+  const std::vector<Vec3d>& solution() const { return x_; }
 
  private:
-  const LiftSystem& system_;
-};
-
-/// Divides by the number of faces around each vertex: the scaling for which the bound is proved.
-class ValencePreconditioner {
- public:
-  ValencePreconditioner() = default;
-  ValencePreconditioner& analyzePattern(const LiftMatrix&) { return *this; }
-  ValencePreconditioner& factorize(const LiftMatrix& matrix) {
-    inverse_.resize(matrix.rows());
-    matrix.system().forEachRow([&](Index row) {
-      inverse_[row] = 1.0 / static_cast<double>(matrix.system().valence(row));
+  void step() {
+    const auto open = (norm_ > limit_).eval();
+    system_.multiply(direction_, product_);
+    const Triple curvature = sumOverRows(
+        system_.rows(), [&](Index row) { return times(direction_[row], product_[row]); });
+    const Triple length = open.select(scaledNorm_ / curvature, 0.0);
+    using Norms = Eigen::Array<double, 3, 2>;
+    const Norms norms = sumOverRows(system_.rows(), [&](Index row) {
+      x_[row].array() += length * direction_[row].array();
+      residual_[row].array() -= length * product_[row].array();
+      const Triple square = times(residual_[row], residual_[row]);
+      Norms both;
+      both << square * (1 / system_.valence(row)), square;
+      return both;
     });
-    return *this;
+    const Triple turn = open.select(norms.col(0) / scaledNorm_, 0.0);
+    scaledNorm_ = norms.col(0);
+    norm_ = norms.col(1);
+    forEach(system_.rows(), kRowsPerPart, [&](Index row) {
+      direction_[row] =
+          residual_[row] / system_.valence(row) + (turn * direction_[row].array()).matrix();
+    });
   }
-  ValencePreconditioner& compute(const LiftMatrix& matrix) { return factorize(matrix); }
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const { return inverse_.cwiseProduct(b); }
-  static Eigen::ComputationInfo info() { return Eigen::Success; }
 
- private:
-  Eigen::VectorXd inverse_;
+  LiftSystem& system_;
+  std::vector<Vec3d> x_;
+  std::vector<Vec3d> residual_;
+  std::vector<Vec3d> direction_;
+  std::vector<Vec3d> product_;
+  Triple norm_;        // of the residual, squared
+  Triple scaledNorm_;  // the same, each row divided by its valence
+  Triple limit_;
+  int iterations_ = 0;
 };
 
-}  // namespace
-}  // namespace vox
-
-namespace Eigen::internal {
-
-template <class Rhs>
-struct generic_product_impl<vox::LiftMatrix, Rhs, SparseShape, DenseShape, GemvProduct>
-    : generic_product_impl_base<vox::LiftMatrix, Rhs, generic_product_impl<vox::LiftMatrix, Rhs>> {
-  template <class Result>
-  static void scaleAndAddTo(Result& result, const vox::LiftMatrix& matrix, const Rhs& x,
-                            double factor) {
-    result += factor * matrix.system().times(x);
-  }
-};
-
-}  // namespace Eigen::internal
-
-namespace vox {
-namespace {
+// Lifting
 
 /// How far the images around each lifted vertex, summed up, are from where they should be.
-std::vector<Vec3d> gaps(const LiftSystem& system, std::span<const Vec3d> points,
-                        std::span<const Vec3d> wanted) {
-  std::vector<Vec3d> sums = system.cornerSums<Vec3d>(points);
-  system.forEachRow(
-      [&](Index row) { sums[row] = double(system.valence(row)) * wanted[row] - sums[row]; });
-  return sums;
+std::vector<Vec3d> gaps(LiftSystem& system, const PolygonMesh& mesh,
+                        const std::vector<Vec3d>& wanted) {
+  std::vector<Vec3d> gap;
+  system.sumCorners(mesh.points, gap);
+  forEach(system.rows(), kRowsPerPart,
+          [&](Index row) { gap[row] = system.valence(row) * wanted[row] - gap[row]; });
+  return gap;
 }
 
-/// Solves for one coordinate of the displacements; returns the number of steps.
-int solveCoordinate(const LiftMatrix& matrix, const std::vector<Vec3d>& gap, int axis,
-                    PolygonMesh& mesh) {
-  Eigen::ConjugateGradient<LiftMatrix, Eigen::Lower | Eigen::Upper, ValencePreconditioner> solver;
-  solver.setTolerance(kTolerance);
-  solver.setMaxIterations(kMostIterations);
-  solver.compute(matrix);
-  Eigen::VectorXd rhs(matrix.rows());
-  for (std::size_t row = 0; row < gap.size(); ++row)
-    rhs[static_cast<Eigen::Index>(row)] = gap[row][axis];
-  const Eigen::VectorXd move = solver.solve(rhs);
-  if (solver.info() != Eigen::Success || !move.allFinite())
-    throw LimitError("interpolation does not converge; scale the model to smaller coordinates");
-  matrix.system().forEachRow(
-      [&](Index row) { mesh.points[matrix.system().vertices()[row]][axis] += move[row]; });
-  return static_cast<int>(solver.iterations());
+/// The power of two next to the largest coordinate: dividing by it is exact.
+double scaleOf(const std::vector<Vec3d>& vectors) {
+  double largest = 0;
+  for (const Vec3d& v : vectors) largest = std::max(largest, v.lpNorm<Eigen::Infinity>());
+  if (largest == 0 || !std::isfinite(largest)) return 1;
+  return std::ldexp(1.0, std::ilogb(largest));
 }
 
 double largestGap(const LiftSystem& system, const std::vector<Vec3d>& gap) {
   double largest = 0;
-  for (Index row = 0; row < system.size(); ++row)
-    largest = std::max(largest, gap[row].norm() / system.valence(row));
+  for (Index row = 0; row < system.rows(); ++row)
+    largest = std::max(largest, gap[row].stableNorm() / system.valence(row));
   return largest;
 }
 
@@ -293,17 +184,22 @@ double largestGap(const LiftSystem& system, const std::vector<Vec3d>& gap) {
 PolygonMesh lift(PolygonMesh mesh, const Adjacency& adjacency, std::span<const Index> vertices,
                  LiftReport& report) {
   report = {};
-  const LiftSystem system(mesh, interiorVertices(mesh, adjacency, vertices));
-  report.vertices = system.size();
-  if (system.size() == 0) return mesh;
+  LiftSystem system(mesh, interiorVertices(mesh, adjacency, vertices));
+  report.vertices = system.rows();
+  if (system.rows() == 0) return mesh;
 
-  std::vector<Vec3d> wanted(system.size());
-  system.forEachRow([&](Index row) { wanted[row] = mesh.points[system.vertices()[row]]; });
-  const std::vector<Vec3d> gap = gaps(system, mesh.points, wanted);
-  const LiftMatrix matrix(system);
-  for (const int axis : {0, 1, 2})
-    report.iterations = std::max(report.iterations, solveCoordinate(matrix, gap, axis, mesh));
-  report.residual = largestGap(system, gaps(system, mesh.points, wanted));
+  std::vector<Vec3d> wanted(system.rows());
+  for (Index row = 0; row < system.rows(); ++row) wanted[row] = mesh.points[system.vertices()[row]];
+  std::vector<Vec3d> gap = gaps(system, mesh, wanted);
+  const double scale = scaleOf(gap);
+  for (Vec3d& g : gap) g /= scale;
+  Gradients gradients(system, std::move(gap));
+  if (!gradients.run())
+    throw LimitError("interpolation does not converge; scale the model to smaller coordinates");
+  for (Index row = 0; row < system.rows(); ++row)
+    mesh.points[system.vertices()[row]] += scale * gradients.solution()[row];
+  report.iterations = gradients.iterations();
+  report.residual = largestGap(system, gaps(system, mesh, wanted));
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include "libvox/prepare/manifold.h"
 
 #include "libvox/core/error.h"
+#include "libvox/mesh/winding_forest.h"
 #include "libvox/prepare/face_order.h"
 
 #include <Eigen/Geometry>
@@ -21,41 +22,6 @@ namespace vox {
 namespace {
 
 constexpr std::size_t kMostSheets = 32;  // candidate pairs grow with its square
-
-/// Sheets of faces; each face knows whether it is wound against the root of its sheet.
-class SheetForest {
- public:
-  explicit SheetForest(Index faceCount)
-      : parent_(faceCount), size_(faceCount, 1), against_(faceCount, 0) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  struct Place {
-    Index root;
-    bool against;
-  };
-  Place find(Index f) const {
-    bool against = false;
-    for (; parent_[f] != f; f = parent_[f]) against ^= against_[f] != 0;
-    return {f, against};
-  }
-
-  /// `against`: f and g run through their common edge in the same direction.
-  void unite(Index f, Index g, bool against) {
-    Place a = find(f);
-    Place b = find(g);
-    if (a.root == b.root) return;
-    if (size_[a.root] < size_[b.root]) std::swap(a, b);
-    parent_[b.root] = a.root;  // by size: no path is longer than log2 F
-    size_[a.root] += size_[b.root];
-    against_[b.root] = a.against ^ b.against ^ against;
-  }
-
- private:
-  std::vector<Index> parent_;
-  std::vector<Index> size_;
-  std::vector<std::uint8_t> against_;
-};
 
 /// Newell normals; bitwise opposite for opposite windings.
 std::vector<Vec3d> faceNormals(const PolygonMesh& mesh) {
@@ -129,15 +95,13 @@ class EdgePairing {
     return sheets_.find(faceOf(a)).root == sheets_.find(faceOf(b)).root;
   }
   bool makesOneSided(Index a, Index b) const {
-    const auto f = sheets_.find(faceOf(a));
-    const auto g = sheets_.find(faceOf(b));
-    return f.root == g.root && (f.against != g.against) != sameDirection(a, b);
+    return sheets_.contradicts(faceOf(a), faceOf(b), sameDirection(a, b));
   }
 
   const PolygonMesh& mesh_;
   Adjacency& adjacency_;
   std::vector<Vec3d> normals_;
-  SheetForest sheets_;
+  WindingForest sheets_;
 };
 
 void pairCrowdedEdges(const PolygonMesh& mesh, std::span<const EdgeCorner> edges,

@@ -190,7 +190,9 @@ void turnComponents(PolygonMesh& mesh, Components& components,
   for (std::size_t k = 0; k < turn.size(); ++k)
     for (const Index f : components.facesOf(components.list[k])) {
       if (turn[k]) flip(faceOf(mesh, f));
-      report.flippedFaces += (components.reversed[f] ^ turn[k]) != inputReversed[f];
+      if ((components.reversed[f] ^ turn[k]) == inputReversed[f]) continue;
+      ++report.flippedFaces;
+      report.firstFlipped = std::min(report.firstFlipped, f);
     }
 }
 

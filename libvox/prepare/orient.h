@@ -13,6 +13,7 @@ struct OrientReport {
   Index closedComponents = 0;   ///< those without boundary (and two-sided); the rest is open
   Index openComponents = 0;     ///< those with boundary (and two-sided)
   Index flippedFaces = 0;       ///< faces wound against the input in the output
+  Index firstFlipped = kNone;   ///< the lowest of them
   Index cavities = 0;           ///< closed components left facing inward, inside another one
   std::vector<Index> oneSided;  ///< lowest face of each component that cannot be oriented
   /// Faces of the output from this one on are the second side of one-sided components.

@@ -320,6 +320,11 @@ bool RepairReport::changed() const {
                      [](const RepairAction& action) { return action.count > 0; });
 }
 
+std::string repairName(RepairKind kind) {
+  const Phrase& phrase = kPhrases[static_cast<std::size_t>(kind)];
+  return std::string(phrase.verb) + " " + phrase.many;
+}
+
 std::string summary(const RepairReport& report) {
   std::string line;
   for (std::size_t k = 0; k < kRepairKindCount; ++k) {

@@ -32,6 +32,9 @@ enum class RepairKind {
 };
 inline constexpr std::size_t kRepairKindCount = 11;
 
+/// Short name for JSON: "welded vertices".
+std::string repairName(RepairKind kind);
+
 /// All that was done of one kind.
 struct RepairAction {
   std::size_t count = 0;

@@ -5,6 +5,7 @@
 #include "libvox/core/error.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
+#include "libvox/subdivide/vertex_split.h"
 
 #include <algorithm>
 #include <array>
@@ -17,13 +18,16 @@ namespace {
 
 /// Levels that a vertex still needs; or one of these.
 constexpr int kUndecided = -1;  ///< irregular, and not fine enough
-constexpr int kEmitted = -2;    ///< an ancestor is fine enough
+constexpr int kEmitted = -2;    ///< it or an ancestor has been emitted
 
 /// One level >= 1 and what its vertices need.
 class Decisions {
  public:
-  Decisions(const SubdivisionLevel& level, std::vector<int> levelsToGo)
-      : mesh_(level.mesh),
+  Decisions(const SubdivisionLevel& level, int number, std::vector<int> levelsToGo,
+            SurfaceSink& sink)
+      : number_(number),
+        sink_(sink),
+        mesh_(level.mesh),
         adjacency_(level.adjacency),
         strips_(level.boundary == BoundaryStage::kStrips),
         levelsToGo_(std::move(levelsToGo)),
@@ -53,12 +57,21 @@ class Decisions {
       return;
     }
     if (const auto patch = patchAround(ring))
-      levelsToGo_[v] = patchDepth(*patch);
+      decideRegular(v, *patch);
     else if (largestFace(ring) <= kVertexConversionSpan)
       levelsToGo_[v] = 0;
     else if (ring.closed && !touchesStrip(ring) &&
              childrenFineEnough(largestFace(ring), largestContraction(ring)))
       levelsToGo_[v] = 1;
+  }
+
+  /// An elongated patch has no levels of its own in the mesh; it is evaluated in closed form.
+  void decideRegular(Index v, const Patch& patch) {
+    const PatchDepth depth = patchDepth(patch);
+    levelsToGo_[v] = depth.levels;
+    if (!depth.elongated()) return;
+    emitRegular(patch, number_, sink_);
+    levelsToGo_[v] = kEmitted;
   }
 
   bool touchesStrip(const OneRing& ring) const {
@@ -134,6 +147,8 @@ class Decisions {
     return points;
   }
 
+  int number_;  // of the level
+  SurfaceSink& sink_;
   const PolygonMesh& mesh_;
   const Adjacency& adjacency_;
   bool strips_;
@@ -166,7 +181,7 @@ void emitGlobally(SubdivisionLevel base, SurfaceSink& sink,
   for (int number = 1;; ++number) {
     requireRoom(level);
     level = nextLevel(level, imageVertices(level));
-    levelsToGo = Decisions(level, std::move(levelsToGo)).run();
+    levelsToGo = Decisions(level, number, std::move(levelsToGo), sink).run();
     levelsToGo = emitLevel(level, levelsToGo, number, sink);
     if (std::all_of(levelsToGo.begin(), levelsToGo.end(), [](int n) { return n == kEmitted; }))
       return;

@@ -21,19 +21,43 @@ constexpr unsigned faceBit(unsigned a, unsigned b) {
 }
 
 /// Largest steps along u and v over the faces that exist.
-Vec3d stepsOfExistingFaces(const Patch& patch) {
-  Vec3d du = Vec3d::Zero();
-  Vec3d dv = Vec3d::Zero();
-  const auto& p = patch.points;
-  for (unsigned a = 0; a < 2; ++a)
-    for (unsigned b = 0; b < 2; ++b) {
-      if ((patch.quadrants & faceBit(a, b)) == 0) continue;
-      du = du.cwiseMax((p[a + 1][b] - p[a][b]).cwiseAbs());
-      du = du.cwiseMax((p[a + 1][b + 1] - p[a][b + 1]).cwiseAbs());
-      dv = dv.cwiseMax((p[a][b + 1] - p[a][b]).cwiseAbs());
-      dv = dv.cwiseMax((p[a + 1][b + 1] - p[a + 1][b]).cwiseAbs());
+struct Steps {
+  Vec3d u = Vec3d::Zero();
+  Vec3d v = Vec3d::Zero();
+  explicit Steps(const Patch& patch) {
+    const auto& p = patch.points;
+    for (unsigned a = 0; a < 2; ++a)
+      for (unsigned b = 0; b < 2; ++b) {
+        if ((patch.quadrants & faceBit(a, b)) == 0) continue;
+        u = u.cwiseMax((p[a + 1][b] - p[a][b]).cwiseAbs());
+        u = u.cwiseMax((p[a + 1][b + 1] - p[a][b + 1]).cwiseAbs());
+        v = v.cwiseMax((p[a][b + 1] - p[a][b]).cwiseAbs());
+        v = v.cwiseMax((p[a + 1][b + 1] - p[a + 1][b]).cwiseAbs());
+      }
+  }
+  bool fineAt(int alongU, int alongV) const {
+    const Vec3d size = u * std::ldexp(1.0, -alongU) + v * std::ldexp(1.0, -alongV);
+    return size.maxCoeff() <= kVertexConversionSpan;
+  }
+};
+
+double verticesOf(const PatchDepth& depth) {
+  const double array = std::ldexp(1.0, depth.alongU + depth.alongV);
+  return depth.elongated() ? array + 4 * std::ldexp(1.0, depth.levels) : array;
+}
+
+/// The cheapest depths along the two axes, if they save at least half.
+PatchDepth elongatedDepth(const Steps& steps, int levels) {
+  const PatchDepth square = {levels, levels, levels};
+  PatchDepth best = square;
+  for (const int most : {levels, levels + 1})
+    for (int least = 0; least < levels; ++least) {
+      const PatchDepth wide = {levels, most, least};
+      const PatchDepth high = {levels, least, most};
+      if (steps.fineAt(most, least) && verticesOf(wide) < verticesOf(best)) best = wide;
+      if (steps.fineAt(least, most) && verticesOf(high) < verticesOf(best)) best = high;
     }
-  return du + dv;
+  return 2 * verticesOf(best) <= verticesOf(square) ? best : square;
 }
 
 }  // namespace
@@ -59,8 +83,16 @@ bool childrenFineEnough(double largestDiameter, double largestContraction) {
   return largestContraction * largestDiameter <= 2 * kVertexConversionSpan;
 }
 
-int patchDepth(const Patch& patch) {
-  return halvings(stepsOfExistingFaces(patch).maxCoeff());
+PatchDepth patchDepth(const Patch& patch) {
+  const Steps steps(patch);
+  const int k = halvings((steps.u + steps.v).maxCoeff());
+  constexpr int kLeastElongated = 4;  // fewer vertices are not worth it
+  constexpr double kAspect = 6;
+  const double u = steps.u.maxCoeff();
+  const double v = steps.v.maxCoeff();
+  const bool square = kAspect * std::min(u, v) > std::max(u, v);
+  if (k < kLeastElongated || square || patch.quadrants != kAllQuadrants) return {k, k, k};
+  return elongatedDepth(steps, k);
 }
 
 int curveDepth(double stripDiameter) {

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "libvox/core/unit_root.h"
+#include "libvox/mesh/polygon_mesh.h"
+
+#include <span>
+#include <vector>
+
+namespace vox {
+
+/// The linear system of lifting: the sum over all faces of their Doo-Sabin matrices, with rows and
+/// columns for the lifted vertices only. Applied to three coordinates at once and never stored:
+/// O(C + V) each time, also for faces and vertices of thousands of sides. Parallel; results
+/// independent of thread count. One caller at a time: it keeps its working memory.
+class LiftSystem {
+ public:
+  /// @param mesh      must outlive the system, its faces unchanged
+  /// @param vertices  each once; each has a face
+  LiftSystem(const PolygonMesh& mesh, std::vector<Index> vertices);
+
+  const std::vector<Index>& vertices() const { return vertices_; }
+  Index rows() const { return static_cast<Index>(vertices_.size()); }
+
+  /// Faces around the vertex of a row.
+  double valence(Index row) const { return cornerOffsets_[row + 1] - cornerOffsets_[row]; }
+
+  /// For each row the sum of the images of its corners, given a position for each vertex of the
+  /// mesh. A row adds in the order of its corners.
+  void sumCorners(std::span<const Vec3d> positions, std::vector<Vec3d>& sums);
+
+  /// S x: the same where the vertices that are not lifted lie at the origin.
+  void multiply(const std::vector<Vec3d>& x, std::vector<Vec3d>& product);
+
+ private:
+  void collectRoots();
+  void collectCorners();
+  void imageOfFace(Index f, std::span<const Vec3d> positions);
+
+  const PolygonMesh& mesh_;
+  std::vector<Index> vertices_;
+  std::vector<Index> cornerOffsets_;  ///< rows + 1: row r has corners_ [offset r, offset r + 1)
+  std::vector<Index> corners_;
+  std::vector<Index> rootOffsets_;  ///< by face size; kNone where no face has it
+  std::vector<UnitRoot> roots_;
+  std::vector<Vec3d> positions_;  ///< of all vertices, for multiply
+  std::vector<Vec3d> images_;     ///< of all corners
+};
+
+}  // namespace vox
