@@ -25,9 +25,9 @@ struct Options {
   std::string output;
   ResolutionOptions resolution;
   SmoothingArguments smoothing;
-  SubmeshArguments submeshes;
   std::optional<double> weldTolerance;
   std::optional<bool> strict;
+  SubmeshArguments submeshes;
   std::string grids;
   std::string report;
   CommonOptions common;

@@ -122,6 +122,25 @@ SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   return smoothing;
 }
 
+void addWeldOption(CLI::App& command, std::optional<double>& tolerance) {
+  command
+      .add_option_function<double>(
+          "--weld", [&tolerance](double distance) { tolerance = distance; },
+          "Join vertices up to this far apart, in world units (default: the scene's, or 0: those "
+          "at exactly the same place)")
+      ->type_name("TOL")
+      ->group("Repair");
+}
+
+void addStrictOption(CLI::App& command, std::optional<bool>& strict) {
+  command
+      .add_flag_function(
+          "--strict", [&strict](std::int64_t count) { strict = count > 0; },
+          "Refuse a mesh that needs any repair or turning of faces (default: the scene's, or "
+          "repair it and say what was done)")
+      ->group("Repair");
+}
+
 void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments) {
   command
       .add_option(
@@ -150,25 +169,6 @@ SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments) {
                      arguments.localize + "'");
   surface.localize = *localize;
   return surface;
-}
-
-void addWeldOption(CLI::App& command, std::optional<double>& tolerance) {
-  command
-      .add_option_function<double>(
-          "--weld", [&tolerance](double distance) { tolerance = distance; },
-          "Join vertices up to this far apart, in world units (default: the scene's, or 0: those "
-          "at exactly the same place)")
-      ->type_name("TOL")
-      ->group("Repair");
-}
-
-void addStrictOption(CLI::App& command, std::optional<bool>& strict) {
-  command
-      .add_flag_function(
-          "--strict", [&strict](std::int64_t count) { strict = count > 0; },
-          "Refuse a mesh that needs any repair or turning of faces (default: the scene's, or "
-          "repair it and say what was done)")
-      ->group("Repair");
 }
 
 std::vector<GridKind> parseGrids(const std::string& names) {

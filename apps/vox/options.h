@@ -43,6 +43,12 @@ void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments);
 /// @throws UsageError, InputError
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments);
 
+/// --weld, as said.
+void addWeldOption(CLI::App& command, std::optional<double>& tolerance);
+
+/// --strict, as said; --strict=false overrides a scene.
+void addStrictOption(CLI::App& command, std::optional<bool>& strict);
+
 /// --localize and --submesh-faces, as typed.
 struct SubmeshArguments {
   std::string localize;
@@ -51,12 +57,6 @@ struct SubmeshArguments {
 void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments);
 /// @throws UsageError
 SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments);
-
-/// --weld, as said.
-void addWeldOption(CLI::App& command, std::optional<double>& tolerance);
-
-/// --strict, as said; --strict=false overrides a scene.
-void addStrictOption(CLI::App& command, std::optional<bool>& strict);
 
 /// "density,mask" as grids.
 /// @throws UsageError  an unknown name

@@ -87,6 +87,7 @@ namespace {
 HWY_EXPORT(packLeaves);
 
 constexpr std::align_val_t kAlignment{64};
+constexpr std::size_t kMostPending = 256;
 
 }  // namespace
 
@@ -97,7 +98,9 @@ void LeafCache::FreeMarks::operator()(std::uint8_t* marks) const {
 LeafCache::LeafCache(SurfaceGrid& grid)
     : grid_(grid),
       marks_(static_cast<std::uint8_t*>(::operator new[](kMarks, kAlignment))),
-      entries_(std::size_t{1} << (3 * kCacheLog2)) {
+      words_(kSlots),
+      leaves_(kSlots, kNoLeaf) {
+  pending_.reserve(kMostPending);
   std::fill_n(marks_.get(), kMarks, std::uint8_t{0});
 }
 
@@ -119,21 +122,18 @@ void LeafCache::collect(const openvdb::Coord& low, const openvdb::Coord& high) {
       HWY_DYNAMIC_DISPATCH(packLeaves)(marks_.get(), slots.data(), count, packed);
   for (std::size_t k = 0; k < touched; ++k) {
     const LeafCoord& leaf = leaves[packed.number[k]];
-    LeafWords& bits = wordsOf(leaf[0], leaf[1], leaf[2]);
-    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] |= packed.words[k][i];
+    send(leaf, packed.words[k]);
   }
 }
 
-void LeafCache::replace(Entry& entry, std::int32_t x, std::int32_t y, std::int32_t z) {
-  if (entry.used) send(entry);
-  entry.words.fill(0);
-  entry.leaf = {x, y, z};
-  entry.used = true;
+void LeafCache::replace(std::size_t slot, const LeafCoord& leaf) {
+  if (leaves_[slot] != kNoLeaf) send(leaves_[slot], words_[slot]);
+  words_[slot].fill(0);
+  leaves_[slot] = leaf;
 }
 
-void LeafCache::send(const Entry& entry) {
-  const openvdb::Coord origin(entry.leaf[0] << kLeafLog2, entry.leaf[1] << kLeafLog2,
-                              entry.leaf[2] << kLeafLog2);
+void LeafCache::send(const LeafCoord& leaf, const LeafWords& words) {
+  const openvdb::Coord origin(leaf.x << kLeafLog2, leaf.y << kLeafLog2, leaf.z << kLeafLog2);
   constexpr std::int32_t kPage = 128;
   constexpr std::int32_t kPageMask = ~(kPage - 1);
   const openvdb::Coord pageOrigin(origin.x() & kPageMask, origin.y() & kPageMask,
@@ -142,14 +142,20 @@ void LeafCache::send(const Entry& entry) {
   KnownPage& known = pages_[4 * odd(origin.x()) + 2 * odd(origin.y()) + odd(origin.z())];
   if (known.page == nullptr || known.origin != pageOrigin)
     known = {pageOrigin, &grid_.pageOf(origin)};
-  grid_.add(*known.page, origin, entry.words);
+  pending_.push_back({known.page, origin, words});
+  if (pending_.size() == kMostPending) drain();
+}
+
+void LeafCache::drain() {
+  grid_.add(pending_);
+  pending_.clear();
 }
 
 void LeafCache::flush() {
-  for (Entry& entry : entries_) {
-    if (entry.used) send(entry);
-    entry.used = false;
-  }
+  for (std::size_t slot = 0; slot < kSlots; ++slot)
+    if (leaves_[slot] != kNoLeaf) send(leaves_[slot], words_[slot]);
+  std::fill(leaves_.begin(), leaves_.end(), kNoLeaf);
+  drain();
 }
 
 }  // namespace vox

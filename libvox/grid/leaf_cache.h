@@ -9,10 +9,12 @@
 
 namespace vox {
 
-/// One thread's private way into a SurfaceGrid. Kernels mark voxels as bytes in a brick of 4 x 4 x
-/// 4 leaves, which lives in the first-level cache; collect() packs the leaves that were touched
-/// into bits, of which the cache keeps 8 x 8 x 8 leaves; what must leave that goes to the grid.
-/// Both are addressed by leaf coordinates modulo their size, so they lie wherever their leaves are.
+/// One thread's private way into a SurfaceGrid, in three steps that each save the next one work.
+/// Kernels mark voxels as bytes in a brick of 4 x 4 x 4 leaves, which lives in the first-level
+/// cache, and collect() packs the leaves that were touched into bits. Single voxels go into a cache
+/// of 8 x 8 x 8 leaves of bits. Both wait in a list that takes the lock of a page once for many
+/// leaves. Brick and cache are addressed by leaf coordinates modulo their size, so they lie
+/// wherever their leaves are.
 ///
 /// Mark index of a voxel: bits 0-2 z, 3-5 y, 6-8 x (within the leaf, OpenVDB's order), 9-10 z,
 /// 11-12 y, 13-14 x (of the leaf).
@@ -42,7 +44,7 @@ class LeafCache {
   void add(const openvdb::Coord& voxel) {
     const auto in = [](std::int32_t v) { return static_cast<unsigned>(v) & 7U; };
     LeafWords& words =
-        wordsOf(voxel.x() >> kLeafLog2, voxel.y() >> kLeafLog2, voxel.z() >> kLeafLog2);
+        wordsOf({voxel.x() >> kLeafLog2, voxel.y() >> kLeafLog2, voxel.z() >> kLeafLog2});
     words[in(voxel.x())] |= std::uint64_t{1} << (in(voxel.y()) << 3U | in(voxel.z()));
   }
 
@@ -53,31 +55,34 @@ class LeafCache {
   struct FreeMarks {
     void operator()(std::uint8_t* marks) const;
   };
-  using LeafCoord = std::array<std::int32_t, 3>;
-  struct Entry {
-    alignas(64) LeafWords words{};
-    LeafCoord leaf{};
-    bool used = false;
+  struct LeafCoord {
+    std::int32_t x, y, z;
+    bool operator==(const LeafCoord&) const = default;
   };
   static constexpr unsigned kCacheLog2 = 3;
   static constexpr unsigned kCacheMask = (1U << kCacheLog2) - 1;
+  static constexpr std::size_t kSlots = std::size_t{1} << (3 * kCacheLog2);
+  /// The leaf of a slot that holds none: no voxel has such coordinates.
+  static constexpr LeafCoord kNoLeaf = {INT32_MIN, INT32_MIN, INT32_MIN};
 
-  /// The bits of a leaf, given by its leaf coordinates.
-  LeafWords& wordsOf(std::int32_t x, std::int32_t y, std::int32_t z) {
-    const unsigned slot = (static_cast<unsigned>(x) & kCacheMask) << (2 * kCacheLog2) |
-                          (static_cast<unsigned>(y) & kCacheMask) << kCacheLog2 |
-                          (static_cast<unsigned>(z) & kCacheMask);
-    Entry& entry = entries_[slot];
-    if (!entry.used || entry.leaf[0] != x || entry.leaf[1] != y || entry.leaf[2] != z) [[unlikely]]
-      replace(entry, x, y, z);
-    return entry.words;
+  /// The bits of a leaf.
+  LeafWords& wordsOf(const LeafCoord& leaf) {
+    const unsigned slot = (static_cast<unsigned>(leaf.x) & kCacheMask) << (2 * kCacheLog2) |
+                          (static_cast<unsigned>(leaf.y) & kCacheMask) << kCacheLog2 |
+                          (static_cast<unsigned>(leaf.z) & kCacheMask);
+    if (leaves_[slot] != leaf) [[unlikely]]
+      replace(slot, leaf);
+    return words_[slot];
   }
-  void replace(Entry& entry, std::int32_t x, std::int32_t y, std::int32_t z);
-  void send(const Entry& entry);
+  void replace(std::size_t slot, const LeafCoord& leaf);
+  void send(const LeafCoord& leaf, const LeafWords& words);
+  void drain();
 
   SurfaceGrid& grid_;
   std::unique_ptr<std::uint8_t[], FreeMarks> marks_;
-  std::vector<Entry> entries_;
+  std::vector<LeafWords> words_;                // per slot
+  std::vector<LeafCoord> leaves_;               // whose they are
+  std::vector<SurfaceGrid::PageLeaf> pending_;  // on their way to the grid, to lock pages seldom
   struct KnownPage {
     openvdb::Coord origin;
     SurfaceGrid::Page* page = nullptr;

@@ -5,6 +5,7 @@
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -45,8 +46,20 @@ SurfaceGrid::Page& SurfaceGrid::pageOf(const openvdb::Coord& voxel) {
       .first->second;
 }
 
-void SurfaceGrid::add(Page& page, const openvdb::Coord& leafOrigin, const LeafWords& words) {
-  const tbb::spin_mutex::scoped_lock lock(page.lock);
+void SurfaceGrid::add(std::span<PageLeaf> leaves) {
+  while (!leaves.empty()) {
+    Page& page = *leaves[0].page;
+    const auto others = std::partition(leaves.begin(), leaves.end(),
+                                       [&](const PageLeaf& leaf) { return leaf.page == &page; });
+    const tbb::spin_mutex::scoped_lock lock(page.lock);
+    for (const PageLeaf& leaf : leaves.first(static_cast<std::size_t>(others - leaves.begin())))
+      addToPage(page, leaf.origin, leaf.words);
+    leaves = leaves.subspan(static_cast<std::size_t>(others - leaves.begin()));
+  }
+}
+
+/// The page is locked.
+void SurfaceGrid::addToPage(Page& page, const openvdb::Coord& leafOrigin, const LeafWords& words) {
   if (page.node == nullptr) {
     account(sizeof(PageNode) + kHeapOverhead);
     if (uppers_.insert((leafOrigin >> kUpperLog2) << kUpperLog2).second)

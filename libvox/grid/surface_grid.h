@@ -11,6 +11,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <span>
 
 namespace vox {
 
@@ -43,9 +44,16 @@ class SurfaceGrid {
   /// @throws LimitError  the nodes would take more than the limit
   Page& pageOf(const openvdb::Coord& voxel);
 
-  /// Switches on the voxels of a leaf, given by its origin, in its page. Thread-safe.
+  /// Some voxels of a leaf, given by its origin, in its page.
+  struct PageLeaf {
+    Page* page;
+    openvdb::Coord origin;
+    LeafWords words;
+  };
+
+  /// Switches on the voxels of some leaves, page by page in whatever order. Thread-safe.
   /// @throws LimitError  as pageOf
-  void add(Page& page, const openvdb::Coord& leafOrigin, const LeafWords& words);
+  void add(std::span<PageLeaf> leaves);
 
   /// Bytes of the nodes so far.
   std::uint64_t memoryBytes() const { return memoryBytes_; }
@@ -59,6 +67,7 @@ class SurfaceGrid {
 
  private:
   void account(std::uint64_t bytes);
+  void addToPage(Page& page, const openvdb::Coord& leafOrigin, const LeafWords& words);
 
   static constexpr std::size_t kPageLog2 = 7;
   static constexpr std::size_t kUpperLog2 = 12;

@@ -219,9 +219,9 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
   SubdivisionLevel& base = prepared.base;
   namingObject(scene, object, [&] {
     VertexOrigin origin;
-    PolygonMesh sound = soundMeshOf(scene, object, options, origin, prepared.warnings);
+    PolygonMesh mesh = soundMeshOf(scene, object, options, origin, prepared.warnings);
     progress.check();
-    base = baseLevel(std::move(sound), own.boundary.value_or(BoundaryRule::kExtend));
+    base = baseLevel(std::move(mesh), own.boundary.value_or(BoundaryRule::kExtend));
     progress.check();
     if (!interpolates(own)) return;
     progress.done(kPartBeforeInterpolation);

@@ -10,7 +10,7 @@ namespace vox {
 /// What lifting did.
 struct LiftReport {
   Index vertices = 0;   ///< lifted
-  int iterations = 0;   ///< conjugate-gradient steps, of the coordinate that took most
+  int iterations = 0;   ///< of conjugate gradients
   double residual = 0;  ///< largest distance from a V-face's centroid to where it should be
 };
 

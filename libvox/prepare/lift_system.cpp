@@ -76,20 +76,21 @@ void LiftSystem::imageOfFace(Index f, std::span<const Vec3d> positions) {
         0.25 * positions[face[i]] + sum + roots[i].cosine * sumCosine + roots[i].sine * sumSine;
 }
 
-void LiftSystem::sumCorners(std::span<const Vec3d> positions, std::vector<Vec3d>& sums) {
+Eigen::Matrix3Xd LiftSystem::sumCorners(std::span<const Vec3d> positions) {
   forEach(mesh_.faceCount(), kFacesPerTask, [&](Index f) { imageOfFace(f, positions); });
-  sums.resize(rows());
+  Eigen::Matrix3Xd sums(3, rows());
   forEach(rows(), kVerticesPerTask, [&](Index row) {
     Vec3d sum = images_[corners_[cornerOffsets_[row]]];
     for (Index k = cornerOffsets_[row] + 1; k < cornerOffsets_[row + 1]; ++k)
       sum += images_[corners_[k]];
-    sums[row] = sum;
+    sums.col(row) = sum;
   });
+  return sums;
 }
 
-void LiftSystem::multiply(const std::vector<Vec3d>& x, std::vector<Vec3d>& product) {
-  forEach(rows(), kVerticesPerTask, [&](Index row) { positions_[vertices_[row]] = x[row]; });
-  sumCorners(positions_, product);
+Eigen::Matrix3Xd LiftSystem::multiply(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
+  forEach(rows(), kVerticesPerTask, [&](Index row) { positions_[vertices_[row]] = x.col(row); });
+  return sumCorners(positions_);
 }
 
 }  // namespace vox

@@ -26,10 +26,10 @@ class LiftSystem {
 
   /// For each row the sum of the images of its corners, given a position for each vertex of the
   /// mesh. A row adds in the order of its corners.
-  void sumCorners(std::span<const Vec3d> positions, std::vector<Vec3d>& sums);
+  Eigen::Matrix3Xd sumCorners(std::span<const Vec3d> positions);
 
   /// S x: the same where the vertices that are not lifted lie at the origin.
-  void multiply(const std::vector<Vec3d>& x, std::vector<Vec3d>& product);
+  Eigen::Matrix3Xd multiply(const Eigen::Ref<const Eigen::Matrix3Xd>& x);
 
  private:
   void collectRoots();
