@@ -49,20 +49,20 @@ class NearTies : public SurfaceSink {
   openvdb::MaskTree voxels;
 
   void points(std::span<const Vec3d> points, int) override {
-    constexpr double kDistance = 1e-4;
-    for (const Vec3d& p : points) {
-      const openvdb::Coord low = voxelOf(p - Vec3d::Constant(kDistance));
-      const openvdb::Coord high = voxelOf(p + Vec3d::Constant(kDistance));
-      if (low != high) voxels.fill(openvdb::CoordBBox(low, high), true);
-    }
+    for (const Vec3d& p : points) add(p);
   }
-  void patch(const Patch&, int, int) override { FAIL("not from the whole mesh"); }
-  void curve(const CurvePoints& curve, int k, int level) override {
+  void curve(const CurvePoints& points, int k, int) override {
     const std::int64_t n = std::int64_t{1} << k;
-    for (std::int64_t j = 0; j < n; ++j) {
-      const Vec3d p = PatchWeights(j, n)(curve[0], curve[1], curve[2]);
-      points({&p, 1}, level);
-    }
+    for (std::int64_t j = 0; j < n; ++j) add(PatchWeights(j, n)(points[0], points[1], points[2]));
+  }
+  void patch(const Patch&, int, int) override { FAIL("the whole mesh gives no patches"); }
+
+ private:
+  void add(const Vec3d& p) {
+    constexpr double kDistance = 1e-4;
+    const openvdb::Coord low = voxelOf(p - Vec3d::Constant(kDistance));
+    const openvdb::Coord high = voxelOf(p + Vec3d::Constant(kDistance));
+    if (low != high) voxels.fill(openvdb::CoordBBox(low, high), true);
   }
 };
 

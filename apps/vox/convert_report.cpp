@@ -40,7 +40,7 @@ Json toJson(const ObjectReport& object) {
            {{"boundary_vertices", interpolation.boundaryVertices},
             {"interior_vertices", interpolation.lift.vertices},
             {"iterations", interpolation.lift.iterations},
-            {"residual_voxels", interpolation.lift.residual}}}};
+            {"residual", interpolation.lift.residual}}}};
 }
 
 Json gridNames(const FinishedRun& run) {
@@ -60,6 +60,8 @@ Json optionsJson(const FinishedRun& run) {
           {"interpolate",
            smoothing.interpolate ? Json(interpolateName(*smoothing.interpolate)) : Json()},
           {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
+          {"weld", orNull(options.weldTolerance)},
+          {"strict", orNull(options.strict)},
           {"grids", options.grids ? gridNames(run) : Json()},
           {"localize", localizeName(options.surface.localize)},
           {"submesh_faces", options.surface.submeshFaces},
