@@ -43,16 +43,16 @@ void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
 void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
   const auto points = images_.imagesOfFace(firstSlot, size);
   const double faceDiameter = diameter(points);
-  todo_.clear();
+  irregular_.clear();
   bool deep = false;
   for (Index i = 0; i < size; ++i) {
     const Corner at{firstSlot, i, size};
     if (emitAtLevelOne(at, faceDiameter, sink)) continue;
     const bool last = childrenAreFine(at, faceDiameter);
-    todo_.push_back({at, last});
+    irregular_.push_back({at, last});
     deep |= !last;
   }
-  if (todo_.empty()) return;
+  if (irregular_.empty()) return;
 
   facePoints_.resize(size);
   faceImages_.of(points, facePoints_);
@@ -60,7 +60,7 @@ void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
     around_.reset(size);
     around_.inner = facePoints_;
   }
-  for (const auto& [at, last] : todo_)
+  for (const auto& [at, last] : irregular_)
     if (last)
       finishChildren(at);
     else

@@ -60,13 +60,13 @@ class LocalSurface {
   std::vector<Vec3d> finished_;          // level-1 vertices that are fine enough
   std::vector<Vec3d> finishedChildren_;  // level-2 vertices that are
   std::vector<Vec3d> facePoints_;        // level 2 of one face
-  struct Todo {
+  struct Irregular {
     Corner at;
     bool last;  // its children are fine enough
   };
-  std::vector<Todo> todo_;         // corners of one face
-  ExtraordinaryFace around_;       // that face, if it is no quad
-  std::vector<Vec3d> starImages_;  // level 2 of the stars, where needed
+  std::vector<Irregular> irregular_;  // corners of one face
+  ExtraordinaryFace around_;          // that face, if it is no quad
+  std::vector<Vec3d> starImages_;     // level 2 of the stars, where needed
   std::vector<std::uint8_t> starKnown_;
   std::vector<Vec3d> starNear_, starFar_, starCorner_;  // as ExtraordinaryFace, per point of a star
   std::vector<std::uint8_t> starActive_;
