@@ -13,19 +13,17 @@
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/metadata.h"
 #include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/pipeline/work.h"
-#include "libvox/volume/density.h"
 
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <span>
-#include <sstream>
 #include <utility>
 
 namespace vox {
@@ -107,99 +105,6 @@ void requireStopRules(const Scene& scene, const ConvertOptions& options) {
   }
 }
 
-// Memory of grids
-
-/// Bytes of a tree of floats with the nodes of a mask.
-std::uint64_t bytesOfDensity(const openvdb::MaskTree& mask) {
-  using Leaf = openvdb::FloatTree::LeafNodeType;
-  using Upper = openvdb::FloatTree::RootNodeType::ChildNodeType;
-  using Lower = Upper::ChildNodeType;
-  const auto nodes = mask.nodeCount();  // leaves first, root last
-  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(float)) + nodes[1] * sizeof(Lower) +
-         nodes[2] * sizeof(Upper);
-}
-
-constexpr const char* kScattered =
-    "the model is scattered over much space: use larger voxels, or raise --max-memory";
-
-/// Bytes of nodes per square voxel of a surface: 1.5 leaves per 64 and 1.5 inner nodes per 16384,
-/// averaged over directions.
-template <class TreeT>
-double bytesPerArea(double valueBytes) {
-  using Leaf = typename TreeT::LeafNodeType;
-  using Lower = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
-  return 1.5 * ((sizeof(Leaf) + Leaf::SIZE * valueBytes) / 64 + sizeof(Lower) / 16384.0);
-}
-
-double bytesOfGrids(double area, std::span<const GridKind> kinds) {
-  double perArea = bytesPerArea<openvdb::MaskTree>(0);
-  for (const GridKind kind : kinds)
-    if (kind == GridKind::kDensity) perArea += bytesPerArea<openvdb::FloatTree>(sizeof(float));
-  return area * perArea;
-}
-
-/// Refuses a surface that cannot fit, before the work starts, and says which resolution would. The
-/// surface has about the area of the control mesh; far less where it shrinks from a free boundary,
-/// so nothing is refused there.
-void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kinds,
-                     const GridTransform& transform, double longestSide,
-                     const MemoryBudget& budget) {
-  const auto& twin = base.adjacency.twin;
-  const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
-  if (open && base.boundary == BoundaryStage::kPlain) return;
-  const double bytes = bytesOfGrids(areaOf(base.mesh), kinds);
-  constexpr double kCertain = 4;
-  const double left = static_cast<double>(budget.left());
-  if (bytes <= kCertain * left) return;
-  const double larger = std::sqrt(kCertain * bytes / left) * transform.voxelSize;
-  std::ostringstream advice;
-  advice.precision(3);
-  advice << "use --dim " << static_cast<std::int64_t>(std::max(1.0, longestSide / larger))
-         << " or --voxel-size " << larger << ", or raise --max-memory";
-  constexpr double kMostBytes = 1e18;
-  budget.require(static_cast<std::uint64_t>(std::min(bytes, kMostBytes)), "the grid", advice.str());
-}
-
-// Metadata
-
-std::string optionText(const GridTransform& transform, const Scene& scene,
-                       const ConvertOptions& options) {
-  std::ostringstream text;
-  text.precision(17);
-  if (options.voxelSize || (!options.dim && scene.voxelSize))
-    text << "voxel-size=" << transform.voxelSize;
-  else
-    text << "dim=" << options.dim.value_or(scene.dim.value_or(kDefaultDim));
-  const SmoothingOptions& smoothing = options.smoothing;
-  if (smoothing.boundary) text << " boundary=" << boundaryRuleName(*smoothing.boundary);
-  if (smoothing.interpolate) text << " interpolate=" << interpolateName(*smoothing.interpolate);
-  if (smoothing.interpolatedVertices)
-    text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
-  if (options.weldTolerance) text << " weld=" << *options.weldTolerance;
-  if (options.until) text << " until=" << stopRuleName(*options.until);
-  return text.str();
-}
-
-openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
-                          const GridTransform& transform, const ConvertReport& report) {
-  int levels = 0;
-  for (const ObjectReport& object : report.objects) levels = std::max(levels, object.levels);
-  const auto voxels = static_cast<openvdb::Int64>(report.activeVoxels);
-  const char* guarantee = options.separation == Separation::k26 ? "26-separating" : "6-separating";
-  openvdb::MetaMap metadata;
-  metadata.insertMeta("vox_version", openvdb::StringMetadata(version()));
-  if (!scene.files.empty()) {
-    metadata.insertMeta("vox_input", openvdb::StringMetadata(scene.files[0].filename().string()));
-    metadata.insertMeta("vox_input_hash", openvdb::StringMetadata(scene.inputHash));
-  }
-  metadata.insertMeta("vox_options",
-                      openvdb::StringMetadata(optionText(transform, scene, options)));
-  metadata.insertMeta("vox_levels", openvdb::Int32Metadata(levels));
-  metadata.insertMeta("vox_guarantee", openvdb::StringMetadata(guarantee));
-  metadata.insertMeta("vox_active_voxels", openvdb::Int64Metadata(voxels));
-  return metadata;
-}
-
 // Progress
 
 /// Area of each object's control mesh, in square voxels: what the work of the later stages follows.
@@ -217,14 +122,6 @@ double workOfPreparing(const SceneObject& object, const ConvertOptions& options)
                          interpolates(overriding(options.smoothing, object.smoothing)));
 }
 
-double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds) {
-  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-  double work = 0;
-  for (const GridKind kind : kinds)
-    if (kind == GridKind::kDensity) work += workOfDensity(area);
-  return work;
-}
-
 /// Announces all stages, writing included.
 void plan(const Scene& scene, const ConvertOptions& options, std::span<const double> areas,
           std::span<const GridKind> kinds, Progress& progress) {
@@ -239,25 +136,7 @@ void plan(const Scene& scene, const ConvertOptions& options, std::span<const dou
   progress.plan(workOfGrids(areas, kinds));
 }
 
-/// Bytes of a file of these grids, as once measured.
-std::uint64_t expectedBytes(const Conversion& conversion) {
-  constexpr std::uint64_t kPerLeaf = 145;
-  constexpr std::uint64_t kPerLeafOfValues = 195;
-  std::uint64_t bytes = 0;
-  for (const auto& grid : conversion.grids)
-    bytes += grid->constBaseTree().leafCount() *
-             (grid->isType<openvdb::MaskGrid>() ? kPerLeaf : kPerLeafOfValues);
-  return bytes;
-}
-
 // Conversion
-
-openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                MemoryBudget& budget) {
-  if (kind == GridKind::kMask) return mask;
-  budget.take(bytesOfDensity(mask->tree()), "the density grid", kScattered);
-  return densityGrid(*mask);
-}
 
 /// Notes what preparation did, and refuses vertices that it moved out of the range of the grid.
 void notePreparation(const PreparedObject& prepared, const GridTransform& transform,
@@ -279,10 +158,11 @@ void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
 }
 
 /// Polygon conversion of an object, with a warning if its polygons are not what they should be.
-void convertPolygons(PreparedObject prepared, int levels, Separation separation,
+void convertPolygons(const PreparedSurface& surface, Separation separation,
                      const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
                      ObjectReport& part, std::vector<std::string>& warnings) {
-  markPolygons(std::move(prepared.base), levels, separation, budget, progress, grid, part.polygons);
+  const int levels = *surface.until.levels;
+  markPolygons(surface.base, levels, separation, budget, progress, grid, part.polygons);
   part.levels = levels;
   const std::uint64_t fanned = part.polygons.fanned;
   if (fanned > 0)
@@ -292,42 +172,52 @@ void convertPolygons(PreparedObject prepared, int levels, Separation separation,
                        " of triangles");
 }
 
-openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& options,
-                                      const GridTransform& transform, double longestSide,
-                                      std::span<const double> areas,
-                                      std::span<const GridKind> kinds, MemoryBudget& budget,
-                                      Progress& progress, ConvertReport& report) {
-  SurfaceGrid grid(budget.left());
+/// Every object, ready to subdivide in index space.
+std::vector<PreparedSurface> prepareObjects(const Scene& scene, const ConvertOptions& options,
+                                            const GridTransform& transform, double longestSide,
+                                            std::span<const GridKind> kinds, MemoryBudget& budget,
+                                            Progress& progress, ConvertReport& report) {
+  const StageTimer timer(report.prepareSeconds);
+  std::vector<PreparedSurface> surfaces;
   for (const SceneObject& object : scene.objects) {
-    const double area = areas[report.objects.size()];
     ObjectReport& part = report.objects.emplace_back();
     part.name = object.name;
     part.inputFaces = object.mesh.faceCount();
     const StopRule until = stopRuleOf(object, scene, options);
-    PreparedObject prepared;
-    {
-      progress.begin("prepare", workOfPreparing(object, options));
-      const StageTimer timer(report.prepareSeconds);
-      prepared = prepare(scene, object, options, budget, progress);
-      if (until.levels != 0) warnOfBoundary(part.name, prepared.base, report);
-      notePreparation(prepared, transform, part, report);
-      moveToIndexSpace(prepared.base.mesh, transform);
-      requireGridsFit(prepared.base, kinds, transform, longestSide, budget);
-    }
-    progress.begin("surface", workOfSurface(area, object.mesh.cornerCount()));
-    const StageTimer timer(report.surfaceSeconds);
-    if (until.levels) {
-      convertPolygons(std::move(prepared), *until.levels, options.separation, budget, progress,
-                      grid, part, report.warnings);
+    progress.begin("prepare", workOfPreparing(object, options));
+    PreparedObject prepared = prepare(scene, object, options, budget, progress);
+    if (until.levels != 0) warnOfBoundary(part.name, prepared.base, report);
+    notePreparation(prepared, transform, part, report);
+    moveToIndexSpace(prepared.base.mesh, transform);
+    requireGridsFit(prepared.base, kinds, transform, longestSide, budget);
+    budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
+    surfaces.push_back({object.name, std::move(prepared.base), until});
+  }
+  return surfaces;
+}
+
+/// The voxels of all objects.
+openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<const PreparedSurface> surfaces,
+                                   const ConvertOptions& options, const GridTransform& transform,
+                                   std::span<const double> areas, MemoryBudget& budget,
+                                   Progress& progress, ConvertReport& report) {
+  const StageTimer timer(report.surfaceSeconds);
+  SurfaceGrid grid(budget.left());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const PreparedSurface& surface = surfaces[i];
+    ObjectReport& part = report.objects[i];
+    progress.begin("surface", workOfSurface(areas[i], scene.objects[i].mesh.cornerCount()));
+    if (surface.until.levels) {
+      convertPolygons(surface, options.separation, budget, progress, grid, part, report.warnings);
     } else {
-      SurfaceReport surface;
-      markSurface(prepared.base, options.surface, budget, progress, grid, surface);
-      noteSurface(surface, part);
+      SurfaceReport marked;
+      markSurface(surface.base, options.surface, budget, progress, grid, marked);
+      noteSurface(marked, part);
     }
     part.activeVoxels = grid.countVoxels() - report.activeVoxels;
     report.activeVoxels += part.activeVoxels;
   }
-  budget.take(grid.memoryBytes(), "the grid", kScattered);
+  budget.take(grid.memoryBytes(), "the grid", kScatteredAdvice);
   auto mask = openvdb::MaskGrid::create(grid.takeTree());
   mask->setName(gridName(GridKind::kMask));
   mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
@@ -337,7 +227,8 @@ openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& 
 Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progress& progress) {
   openvdb::initialize();
   Conversion result;
-  result.report.threads = tbb::this_task_arena::max_concurrency();
+  ConvertReport& report = result.report;
+  report.threads = tbb::this_task_arena::max_concurrency();
   MemoryBudget budget(options.run.maxMemory);
   for (const SceneObject& object : scene.objects)
     budget.take(bytesOf(object.mesh), "the input", "raise --max-memory");
@@ -348,15 +239,17 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
       options.grids.value_or(scene.grids.value_or(std::vector{GridKind::kDensity}));
   const std::vector<double> areas = areasOf(scene, transform, progress);
   plan(scene, options, areas, kinds, progress);
-  result.report.voxelSize = transform.voxelSize;
-  const openvdb::MaskGrid::Ptr mask = convertObjects(scene, options, transform, box.longestSide(),
-                                                     areas, kinds, budget, progress, result.report);
+  report.voxelSize = transform.voxelSize;
+  const std::vector<PreparedSurface> surfaces =
+      prepareObjects(scene, options, transform, box.longestSide(), kinds, budget, progress, report);
+  const openvdb::MaskGrid::Ptr mask =
+      markObjects(scene, surfaces, options, transform, areas, budget, progress, report);
 
   progress.begin("grids", workOfGrids(areas, kinds));
-  const StageTimer timer(result.report.gridsSeconds);
-  const openvdb::MetaMap metadata = describe(scene, options, transform, result.report);
+  const StageTimer timer(report.gridsSeconds);
+  const openvdb::MetaMap metadata = describe(scene, options, transform, report);
   for (const GridKind kind : kinds) {
-    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, budget);
+    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, budget);
     progress.check();
     for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
       grid->insertMeta(entry->first, *entry->second);
@@ -380,7 +273,7 @@ void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* p
   metadata.insertMeta("creator", openvdb::StringMetadata(std::string("vox ") + version()));
   if (progress == nullptr) return writeVdb(stream, conversion.grids, metadata);
   progress->beginLast("write");
-  WatchedStream watched(*stream.rdbuf(), *progress, expectedBytes(conversion));
+  WatchedStream watched(*stream.rdbuf(), *progress, expectedBytes(conversion.grids));
   writeVdb(watched, conversion.grids, metadata);
 }
 

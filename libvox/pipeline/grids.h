@@ -1,0 +1,50 @@
+#pragma once
+
+#include "libvox/core/memory.h"
+#include "libvox/grid/grid_kind.h"
+#include "libvox/grid/transform.h"
+#include "libvox/mesh/stop_rule.h"
+#include "libvox/subdivide/level.h"
+
+#include <openvdb/openvdb.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace vox {
+
+/// An object as it is voxelized, in index space.
+struct PreparedSurface {
+  std::string name;
+  SubdivisionLevel base;
+  StopRule until;
+};
+
+/// What to do about a grid that is too large.
+inline constexpr const char* kScatteredAdvice =
+    "the model is scattered over much space: use larger voxels, or raise --max-memory";
+
+/// Refuses a surface that cannot fit, before the work starts, and says which resolution would. The
+/// surface has about the area of the control mesh; far less where it shrinks from a free boundary,
+/// so nothing is refused there.
+/// @param base         in index space
+/// @param longestSide  of the input, world units
+/// @throws LimitError
+void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kinds,
+                     const GridTransform& transform, double longestSide,
+                     const MemoryBudget& budget);
+
+/// The output grid of a kind, from the black voxels and the surfaces they came from.
+/// @throws LimitError  it does not fit into the budget
+openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
+                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget);
+
+/// Work of making grids (work.h), by the area of each object in square voxels.
+double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds);
+
+/// Bytes of a file of these grids, as once measured.
+std::uint64_t expectedBytes(std::span<const openvdb::GridBase::Ptr> grids);
+
+}  // namespace vox
