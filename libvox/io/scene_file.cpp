@@ -110,16 +110,35 @@ Vec3d requireVector(const SceneText& scene, const toml::node& node, const std::s
           requireNumber(scene, array[2], name)};
 }
 
-/// until = "voxel" or { levels = 3 }
+[[noreturn]] void failStopRule(const SceneText& scene, const toml::node& node) {
+  scene.fail(node,
+             "until must be \"voxel\" or { levels = K, diameter = D, angle = DEG, flatness = D }, "
+             "some of them");
+}
+
+/// until = "voxel" or { levels = 3, diameter = 4, angle = 5, flatness = 0.1 }, some of them
 StopRule readStopRule(const SceneText& scene, const toml::node& node) {
   const auto* table = node.as_table();
-  const auto* levels = table != nullptr ? table->get("levels") : nullptr;
-  if (table != nullptr) requireKnownKeys(scene, *table, "until", {"levels"});
-  if (levels != nullptr)
-    return {static_cast<int>(requireInteger(scene, *levels, "levels", 0, kMostLevels))};
-  if (node.value_exact<std::string>() != stopRuleName({}))
-    scene.fail(node, "until must be \"voxel\" or { levels = K }");
-  return {};
+  StopRule rule;
+  if (table == nullptr) {
+    if (node.value_exact<std::string>() != stopRuleName(rule)) failStopRule(scene, node);
+    return rule;
+  }
+  requireKnownKeys(scene, *table, "until", {"levels", "diameter", "angle", "flatness"});
+  if (const auto* levels = table->get("levels"))
+    rule.levels = static_cast<int>(requireInteger(scene, *levels, "levels", 0, kMostLevels));
+  const auto read = [&](const char* key, std::optional<double> StopRule::*limit) {
+    const auto* value = table->get(key);
+    if (value == nullptr) return;
+    StopRule alone;
+    rule.*limit = alone.*limit = requireNumber(scene, *value, key);
+    if (const std::string fault = faultOf(alone); !fault.empty()) scene.fail(*value, fault);
+  };
+  read("diameter", &StopRule::diameter);
+  read("angle", &StopRule::angle);
+  read("flatness", &StopRule::flatness);
+  if (rule.untilVoxel()) failStopRule(scene, node);
+  return rule;
 }
 
 // [convert]
