@@ -141,6 +141,14 @@ StopRule readStopRule(const SceneText& scene, const toml::node& node) {
   return rule;
 }
 
+Voxelize readVoxelize(const SceneText& scene, const toml::node& node) {
+  const std::string name = requireString(scene, node, "voxelize");
+  const auto voxelize = voxelizeNamed(name);
+  if (!voxelize)
+    scene.fail(node, "voxelize must be one of " + allVoxelizeNames() + ", not " + quote(name));
+  return *voxelize;
+}
+
 // [convert]
 
 std::vector<GridKind> readGrids(const SceneText& scene, const toml::node& node) {
@@ -168,6 +176,7 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
   }
   if (const auto* grids = table.get("grids")) scene.grids = readGrids(text, *grids);
   if (const auto* until = table.get("until")) scene.until = readStopRule(text, *until);
+  if (const auto* way = table.get("voxelize")) scene.voxelize = readVoxelize(text, *way);
   if (const auto* weld = table.get("weld")) {
     scene.weldTolerance = requireNumber(text, *weld, "weld");
     if (*scene.weldTolerance < 0) text.fail(*weld, "weld must be 0 or more");
@@ -295,7 +304,7 @@ SmoothingOptions readSmoothing(const SceneText& text, const toml::table& table, 
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[[object]]",
                    {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
-                    "interpolate_vertices", "until"});
+                    "interpolate_vertices", "until", "voxelize"});
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
   if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");
@@ -303,6 +312,7 @@ SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) 
   if (const auto* transform = table.get("transform")) transformMesh(text, *transform, object.mesh);
   object.smoothing = readSmoothing(text, table, object.mesh.pointCount());
   if (const auto* until = table.get("until")) object.until = readStopRule(text, *until);
+  if (const auto* way = table.get("voxelize")) object.voxelize = readVoxelize(text, *way);
   return object;
 }
 

@@ -13,6 +13,7 @@
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/surface.h"
@@ -95,15 +96,17 @@ StopRule stopRuleOf(const SceneObject& object, const Scene& scene, const Convert
   return {};
 }
 
+Voxelize voxelizeOf(const SceneObject& object, const Scene& scene, const ConvertOptions& options) {
+  for (const auto& said : {options.voxelize, object.voxelize, scene.voxelize})
+    if (said) return *said;
+  return Voxelize::kAuto;
+}
+
 void requireStopRules(const Scene& scene, const ConvertOptions& options) {
   for (const SceneObject& object : scene.objects) {
-    const StopRule until = stopRuleOf(object, scene, options);
-    if (until.levels && (*until.levels < 0 || *until.levels > kMostLevels))
-      throw UsageError("the number of levels must lie between 0 and " +
-                       std::to_string(kMostLevels) + ", not " + std::to_string(*until.levels));
-    if (!until.levels && options.separation == Separation::k26)
-      throw UsageError(object.name +
-                       ": --separating 26 needs polygons; give --until levels=K with it");
+    const std::string fault = faultOf(stopRuleOf(object, scene, options),
+                                      voxelizeOf(object, scene, options), options.separation);
+    if (!fault.empty()) throw UsageError(object.name + ": " + fault);
   }
 }
 
@@ -177,6 +180,7 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
     text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
   if (options.weldTolerance) text << " weld=" << *options.weldTolerance;
   if (options.until) text << " until=" << stopRuleName(*options.until);
+  if (options.voxelize) text << " voxelize=" << voxelizeName(*options.voxelize);
   return text.str();
 }
 
@@ -279,11 +283,15 @@ void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
 }
 
 /// Polygon conversion of an object, with a warning if its polygons are not what they should be.
-void convertPolygons(PreparedObject prepared, int levels, Separation separation,
+void convertPolygons(PreparedObject prepared, const StopRule& until, const ConvertOptions& options,
                      const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
                      ObjectReport& part, std::vector<std::string>& warnings) {
-  markPolygons(std::move(prepared.base), levels, separation, budget, progress, grid, part.polygons);
-  part.levels = levels;
+  markPolygons(std::move(prepared.base), until, options.surface, options.separation, budget,
+               progress, grid, part.polygons);
+  part.byPolygons = true;
+  part.until = until;
+  part.levels = part.polygons.levels;
+  part.submeshes = part.polygons.submeshes;
   const std::uint64_t fanned = part.polygons.fanned;
   if (fanned > 0)
     warnings.push_back(part.name + ": " + std::to_string(fanned) +
@@ -316,9 +324,11 @@ openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& 
     }
     progress.begin("surface", workOfSurface(area, object.mesh.cornerCount()));
     const StageTimer timer(report.surfaceSeconds);
-    if (until.levels) {
-      convertPolygons(std::move(prepared), *until.levels, options.separation, budget, progress,
-                      grid, part, report.warnings);
+    const ConversionWay way = chooseWay(prepared.base, until, voxelizeOf(object, scene, options),
+                                        options.separation, options.surface, progress);
+    if (way.polygons) {
+      convertPolygons(std::move(prepared), way.until, options, budget, progress, grid, part,
+                      report.warnings);
     } else {
       SurfaceReport surface;
       markSurface(prepared.base, options.surface, budget, progress, grid, surface);
