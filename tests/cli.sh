@@ -219,8 +219,20 @@ for until in voxels levels levels=31 levels=-1 levels=two; do
   expect 2 '--until must be one of voxel, levels=K' convert good.obj -o out.vdb --until "$until"
 done
 expect 2 "--separating must be 6 or 26, not '18'" convert good.obj -o out.vdb --separating 18
-expect 2 'give --until levels=K' convert good.obj -o out.vdb --separating 26
-expect 2 'give --until levels=K' convert good.obj -o out.vdb --separating 26 --until voxel
+for until in diameter=0 angle=181 flatness=-1 levels=1,, diameter=nan diameter; do
+  expect 2 '--until must be one of voxel, levels=K' convert good.obj -o out.vdb --until "$until"
+done
+expect 2 "needs --until voxel, not angle=5" convert good.obj -o out.vdb --until angle=5 --voxelize vertex
+expect 2 'cannot make 26-separating' convert good.obj -o out.vdb --separating 26 --voxelize vertex
+expect 2 '--voxelize must be one of auto, vertex, polygon' convert good.obj -o out.vdb --voxelize all
+expect 0 '' convert "$scenes/cube.obj" -o smooth26.vdb --dim 32 --separating 26 --verbose
+grep -q 'until flatness=0.1' stderr || fail "26-separating until voxel: $(cat stderr)"
+expect 0 '' convert "$scenes/cube.obj" -o limits.vdb --dim 32 --until angle=5,diameter=4 --until flatness=0.5 --verbose
+grep -q 'until diameter=4,angle=5,flatness=0.5' stderr || fail "limits: $(cat stderr)"
+printf '[convert]\ndim = 32\nvoxelize = "polygon"\n[[object]]\nuntil = { angle = 5, diameter = 4 }\n%s\n' "$cube" >limits.toml
+expect 0 '' convert limits.toml -o limits.vdb --force --verbose
+grep -q 'until diameter=4,angle=5' stderr || fail "limits of a scene: $(cat stderr)"
+expect 4 'larger limit' convert "$scenes/cube.obj" -o out.vdb --until diameter=1e-6
 printf '[convert]\nuntil = { levels = 31 }\n[[object]]\n%s\n' "$cube" >until.toml
 expect 3 'until.toml:2:20: levels must lie between 0 and 30' convert until.toml -o out.vdb
 expect 4 'use fewer levels' convert "$scenes/cube.obj" -o out.vdb --until levels=30 --max-memory 256M

@@ -289,7 +289,8 @@ TEST_CASE("one object may stay polygons while another is smoothed", "[polygons]"
   CHECK_FALSE(maskOf(conversion).tree().isValueOn(Coord(20, 4, 4)));  // is rounded off the second
   CHECK(maskOf(conversion).tree().isValueOn(Coord(20, 0, 0)));
   options.separation = Separation::k26;
-  CHECK_THROWS_WITH(convert(scene, options), Contains("smooth") && Contains("--until levels=K"));
+  options.voxelize = Voxelize::kVertex;
+  CHECK_THROWS_WITH(convert(scene, options), Contains("object") && Contains("needs --until voxel"));
 }
 
 TEST_CASE("an open mesh left as it is does not shrink, and nobody says so", "[polygons]") {
@@ -319,10 +320,17 @@ TEST_CASE("polygons that cannot be had are refused", "[polygons][error]") {
     CHECK_THROWS_AS(convert(scene, options), UsageError);
   }
   options.until.reset();
-  CHECK_THROWS_WITH(convert(scene, options), Contains("give --until levels=K"));
+  options.voxelize = Voxelize::kVertex;
+  CHECK_THROWS_WITH(convert(scene, options), Contains("cannot make 26-separating"));
+  options.voxelize.reset();
+  for (const StopRule& rule :
+       {StopRule{{}, 0.0}, StopRule{{}, {}, 181.0}, StopRule{{}, {}, {}, -1.0}}) {
+    options.until = rule;
+    CHECK_THROWS_AS(convert(scene, options), UsageError);
+  }
   options.until = StopRule{kMostLevels};
   options.run.maxMemory = std::uint64_t{100} << 20U;
-  CHECK_THROWS_WITH(convert(scene, options), Contains("level") && Contains("use fewer levels"));
+  CHECK_THROWS_WITH(convert(scene, options), Contains("vertices") && Contains("use fewer levels"));
 }
 
 TEST_CASE("a grid of polygons keeps to the memory that the mesh leaves", "[polygons][error]") {
@@ -330,7 +338,7 @@ TEST_CASE("a grid of polygons keeps to the memory that the mesh leaves", "[polyg
   SurfaceGrid grid;
   PolygonReport report;
   Progress unwatched;
-  CHECK_THROWS_AS(
-      markPolygons(base, 0, Separation::k6, MemoryBudget(20000), unwatched, grid, report),
-      LimitError);
+  CHECK_THROWS_AS(markPolygons(base, StopRule{0}, {}, Separation::k6, MemoryBudget(20000),
+                               unwatched, grid, report),
+                  LimitError);
 }

@@ -80,6 +80,7 @@ ConvertOptions parse(const Options& options) {
   parsed.voxelSize = options.resolution.voxelSize;
   parsed.smoothing = parseSmoothing(options.smoothing);
   parsed.until = parseUntil(options.voxelization);
+  parsed.voxelize = parseVoxelize(options.voxelization);
   parsed.separation = parseSeparation(options.voxelization);
   parsed.weldTolerance = options.weldTolerance;
   parsed.strict = options.strict;

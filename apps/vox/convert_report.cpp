@@ -28,6 +28,8 @@ Json toJson(const ObjectReport& object) {
   return {{"name", object.name},
           {"input_faces", object.inputFaces},
           {"submeshes", object.submeshes},
+          {"voxelized", object.byPolygons ? "polygons" : "vertices"},
+          {"until", object.byPolygons ? Json(stopRuleName(object.until)) : Json("voxel")},
           {"levels", object.levels},
           {"vertices", object.vertices},
           {"vertices_of_level", levels},
@@ -62,6 +64,9 @@ Json optionsJson(const FinishedRun& run) {
           {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
           {"weld", orNull(options.weldTolerance)},
           {"strict", orNull(options.strict)},
+          {"until", options.until ? Json(stopRuleName(*options.until)) : Json()},
+          {"voxelize", options.voxelize ? Json(voxelizeName(*options.voxelize)) : Json()},
+          {"separating", options.separation == Separation::k26 ? 26 : 6},
           {"grids", options.grids ? gridNames(run) : Json()},
           {"localize", localizeName(options.surface.localize)},
           {"submesh_faces", options.surface.submeshFaces},
@@ -87,8 +92,9 @@ std::string objectText(const ObjectReport& object) {
   std::ostringstream text;
   text << object.name << ": " << object.inputFaces << " faces, " << object.submeshes
        << " submeshes, ";
-  if (object.polygons.triangles > 0)
-    text << object.polygons.triangles << " triangles after " << object.levels << " levels, ";
+  if (object.byPolygons)
+    text << object.polygons.triangles << " triangles after " << object.levels << " levels (until "
+         << stopRuleName(object.until) << "), ";
   else
     text << object.vertices << " vertices (by level " << levelsText(object) << "), ";
   text << object.activeVoxels << " active voxels";

@@ -124,27 +124,49 @@ SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
 
 void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments) {
   command
-      .add_option("--until", arguments.until,
-                  "Subdivide down to the size of a voxel (voxel), or K times and scan-convert the "
-                  "polygons (levels=K; levels=0: those of the input) (default: the scene's, or "
-                  "voxel)")
-      ->type_name("voxel|levels=K")
+      .add_option(
+          "--until", arguments.until,
+          "Subdivide down to the size of a voxel (voxel), or scan-convert polygons once they "
+          "keep one of some limits: levels=K steps (0: the polygons of the input), faces of "
+          "diameter=D voxels, angle=DEG between adjacent ones, within flatness=D voxels of "
+          "the smooth surface (default: the scene's, or voxel)")
+      ->type_name("voxel|LIMIT[,LIMIT...]")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
+      ->group("Voxels");
+  command
+      .add_option(
+          "--voxelize", arguments.voxelize,
+          "How the surface becomes voxels: by its vertices (vertex; needs --until voxel), by "
+          "scanning polygons (polygon), or what is faster (auto) (default: the scene's, or "
+          "auto)")
+      ->type_name("auto|vertex|polygon")
       ->group("Voxels");
   command
       .add_option("--separating", arguments.separating,
                   "Paths of white voxels that the surface stops: those through faces (6), or those "
-                  "through edges and corners too (26; needs --until levels=K) (default: 6)")
+                  "through edges and corners too (26) (default: 6)")
       ->type_name("6|26")
       ->group("Voxels");
 }
 
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments) {
   if (arguments.until.empty()) return std::nullopt;
-  const auto rule = stopRuleNamed(arguments.until);
+  std::string all;
+  for (const std::string& name : arguments.until) all += (all.empty() ? "" : ",") + name;
+  const auto rule = stopRuleNamed(all);
   if (!rule)
-    throw UsageError("--until must be one of " + allStopRuleNames() + ", not '" + arguments.until +
-                     "'");
+    throw UsageError("--until must be one of " + allStopRuleNames() + ", not '" + all + "'");
   return rule;
+}
+
+std::optional<Voxelize> parseVoxelize(const VoxelizationArguments& arguments) {
+  if (arguments.voxelize.empty()) return std::nullopt;
+  const auto voxelize = voxelizeNamed(arguments.voxelize);
+  if (!voxelize)
+    throw UsageError("--voxelize must be one of " + allVoxelizeNames() + ", not '" +
+                     arguments.voxelize + "'");
+  return voxelize;
 }
 
 Separation parseSeparation(const VoxelizationArguments& arguments) {

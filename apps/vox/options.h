@@ -45,9 +45,10 @@ void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments);
 /// @throws UsageError, InputError
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments);
 
-/// --until and --separating, as typed.
+/// --until, --voxelize and --separating, as typed.
 struct VoxelizationArguments {
-  std::string until;
+  std::vector<std::string> until;
+  std::string voxelize;
   std::string separating;
 };
 void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments);
@@ -55,6 +56,7 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
 /// What they mean; nothing if not said.
 /// @throws UsageError
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
+std::optional<Voxelize> parseVoxelize(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
 
 /// --weld, as said.

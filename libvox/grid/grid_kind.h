@@ -11,6 +11,7 @@ namespace vox {
 enum class GridKind {
   kDensity,  ///< Float fog volume, 1 at black voxels
   kMask,     ///< the black voxels
+  kNormal,   ///< Vec3s, unit normals of the surface at black voxels
 };
 
 /// Name in files, scenes and on the command line: "density".
@@ -19,7 +20,7 @@ std::string gridName(GridKind kind);
 /// Grid of that name, or nothing.
 std::optional<GridKind> gridNamed(std::string_view name);
 
-/// "density, mask": for messages.
+/// "density, mask, normal": for messages.
 std::string allGridNames();
 
 }  // namespace vox

@@ -110,16 +110,43 @@ Vec3d requireVector(const SceneText& scene, const toml::node& node, const std::s
           requireNumber(scene, array[2], name)};
 }
 
-/// until = "voxel" or { levels = 3 }
+[[noreturn]] void failStopRule(const SceneText& scene, const toml::node& node) {
+  scene.fail(node,
+             "until must be \"voxel\" or { levels = K, diameter = D, angle = DEG, flatness = D }, "
+             "some of them");
+}
+
+/// until = "voxel" or { levels = 3, diameter = 4, angle = 5, flatness = 0.1 }, some of them
 StopRule readStopRule(const SceneText& scene, const toml::node& node) {
   const auto* table = node.as_table();
-  const auto* levels = table != nullptr ? table->get("levels") : nullptr;
-  if (table != nullptr) requireKnownKeys(scene, *table, "until", {"levels"});
-  if (levels != nullptr)
-    return {static_cast<int>(requireInteger(scene, *levels, "levels", 0, kMostLevels))};
-  if (node.value_exact<std::string>() != stopRuleName({}))
-    scene.fail(node, "until must be \"voxel\" or { levels = K }");
-  return {};
+  StopRule rule;
+  if (table == nullptr) {
+    if (node.value_exact<std::string>() != stopRuleName(rule)) failStopRule(scene, node);
+    return rule;
+  }
+  requireKnownKeys(scene, *table, "until", {"levels", "diameter", "angle", "flatness"});
+  if (const auto* levels = table->get("levels"))
+    rule.levels = static_cast<int>(requireInteger(scene, *levels, "levels", 0, kMostLevels));
+  const auto read = [&](const char* key, std::optional<double> StopRule::*limit) {
+    const auto* value = table->get(key);
+    if (value == nullptr) return;
+    StopRule alone;
+    rule.*limit = alone.*limit = requireNumber(scene, *value, key);
+    if (const std::string fault = faultOf(alone); !fault.empty()) scene.fail(*value, fault);
+  };
+  read("diameter", &StopRule::diameter);
+  read("angle", &StopRule::angle);
+  read("flatness", &StopRule::flatness);
+  if (rule.untilVoxel()) failStopRule(scene, node);
+  return rule;
+}
+
+Voxelize readVoxelize(const SceneText& scene, const toml::node& node) {
+  const std::string name = requireString(scene, node, "voxelize");
+  const auto voxelize = voxelizeNamed(name);
+  if (!voxelize)
+    scene.fail(node, "voxelize must be one of " + allVoxelizeNames() + ", not " + quote(name));
+  return *voxelize;
 }
 
 // [convert]
@@ -149,6 +176,7 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
   }
   if (const auto* grids = table.get("grids")) scene.grids = readGrids(text, *grids);
   if (const auto* until = table.get("until")) scene.until = readStopRule(text, *until);
+  if (const auto* way = table.get("voxelize")) scene.voxelize = readVoxelize(text, *way);
   if (const auto* weld = table.get("weld")) {
     scene.weldTolerance = requireNumber(text, *weld, "weld");
     if (*scene.weldTolerance < 0) text.fail(*weld, "weld must be 0 or more");
@@ -276,7 +304,7 @@ SmoothingOptions readSmoothing(const SceneText& text, const toml::table& table, 
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[[object]]",
                    {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
-                    "interpolate_vertices", "until"});
+                    "interpolate_vertices", "until", "voxelize"});
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
   if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");
@@ -284,6 +312,7 @@ SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) 
   if (const auto* transform = table.get("transform")) transformMesh(text, *transform, object.mesh);
   object.smoothing = readSmoothing(text, table, object.mesh.pointCount());
   if (const auto* until = table.get("until")) object.until = readStopRule(text, *until);
+  if (const auto* way = table.get("voxelize")) object.voxelize = readVoxelize(text, *way);
   return object;
 }
 

@@ -17,6 +17,7 @@ struct SceneObject {
   PolygonMesh mesh;  ///< world units, the object's transform applied
   SmoothingOptions smoothing = {};
   std::optional<StopRule> until = {};
+  std::optional<Voxelize> voxelize = {};
 };
 
 /// What to convert, and how, as far as the scene says.
@@ -27,6 +28,7 @@ struct Scene {
   std::optional<double> weldTolerance;       ///< [convert] weld: world units
   std::optional<bool> strict;                ///< [convert] strict: no repair
   std::optional<StopRule> until;             ///< [convert] until: of objects that say nothing
+  std::optional<Voxelize> voxelize;          ///< [convert] voxelize: likewise
   std::vector<SceneObject> objects;          ///< at least one
   std::vector<std::filesystem::path> files;  ///< the input file, then the meshes it names
   std::string inputHash;  ///< of the contents of these files; empty if there are none

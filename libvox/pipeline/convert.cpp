@@ -13,6 +13,7 @@
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/metadata.h"
 #include "libvox/pipeline/polygons.h"
@@ -93,15 +94,17 @@ StopRule stopRuleOf(const SceneObject& object, const Scene& scene, const Convert
   return {};
 }
 
+Voxelize voxelizeOf(const SceneObject& object, const Scene& scene, const ConvertOptions& options) {
+  for (const auto& said : {options.voxelize, object.voxelize, scene.voxelize})
+    if (said) return *said;
+  return Voxelize::kAuto;
+}
+
 void requireStopRules(const Scene& scene, const ConvertOptions& options) {
   for (const SceneObject& object : scene.objects) {
-    const StopRule until = stopRuleOf(object, scene, options);
-    if (until.levels && (*until.levels < 0 || *until.levels > kMostLevels))
-      throw UsageError("the number of levels must lie between 0 and " +
-                       std::to_string(kMostLevels) + ", not " + std::to_string(*until.levels));
-    if (!until.levels && options.separation == Separation::k26)
-      throw UsageError(object.name +
-                       ": --separating 26 needs polygons; give --until levels=K with it");
+    const std::string fault = faultOf(stopRuleOf(object, scene, options),
+                                      voxelizeOf(object, scene, options), options.separation);
+    if (!fault.empty()) throw UsageError(object.name + ": " + fault);
   }
 }
 
@@ -122,6 +125,18 @@ double workOfPreparing(const SceneObject& object, const ConvertOptions& options)
                          interpolates(overriding(options.smoothing, object.smoothing)));
 }
 
+double workOfWriting(GridKind kind, double area) {
+  switch (kind) {
+    case GridKind::kDensity:
+      return workOfWritingDensity(area);
+    case GridKind::kMask:
+      return workOfWritingMask(area);
+    case GridKind::kNormal:
+      return workOfWritingNormals(area);
+  }
+  return 0;
+}
+
 /// Announces all stages, writing included.
 void plan(const Scene& scene, const ConvertOptions& options, std::span<const double> areas,
           std::span<const GridKind> kinds, Progress& progress) {
@@ -129,9 +144,7 @@ void plan(const Scene& scene, const ConvertOptions& options, std::span<const dou
     const SceneObject& object = scene.objects[i];
     progress.plan(workOfPreparing(object, options) +
                   workOfSurface(areas[i], object.mesh.cornerCount()));
-    for (const GridKind kind : kinds)
-      progress.plan(kind == GridKind::kDensity ? workOfWritingDensity(areas[i])
-                                               : workOfWritingMask(areas[i]));
+    for (const GridKind kind : kinds) progress.plan(workOfWriting(kind, areas[i]));
   }
   progress.plan(workOfGrids(areas, kinds));
 }
@@ -158,12 +171,15 @@ void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
 }
 
 /// Polygon conversion of an object, with a warning if its polygons are not what they should be.
-void convertPolygons(const PreparedSurface& surface, Separation separation,
+void convertPolygons(const PreparedSurface& surface, const ConvertOptions& options,
                      const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
                      ObjectReport& part, std::vector<std::string>& warnings) {
-  const int levels = *surface.until.levels;
-  markPolygons(surface.base, levels, separation, budget, progress, grid, part.polygons);
-  part.levels = levels;
+  markPolygons(surface.base, surface.way.until, options.surface, options.separation, budget,
+               progress, grid, part.polygons);
+  part.byPolygons = true;
+  part.until = surface.way.until;
+  part.levels = part.polygons.levels;
+  part.submeshes = part.polygons.submeshes;
   const std::uint64_t fanned = part.polygons.fanned;
   if (fanned > 0)
     warnings.push_back(part.name + ": " + std::to_string(fanned) +
@@ -191,7 +207,9 @@ std::vector<PreparedSurface> prepareObjects(const Scene& scene, const ConvertOpt
     moveToIndexSpace(prepared.base.mesh, transform);
     requireGridsFit(prepared.base, kinds, transform, longestSide, budget);
     budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
-    surfaces.push_back({object.name, std::move(prepared.base), until});
+    const ConversionWay way = chooseWay(prepared.base, until, voxelizeOf(object, scene, options),
+                                        options.separation, options.surface, progress);
+    surfaces.push_back({object.name, std::move(prepared.base), way});
   }
   return surfaces;
 }
@@ -207,8 +225,8 @@ openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<const PreparedS
     const PreparedSurface& surface = surfaces[i];
     ObjectReport& part = report.objects[i];
     progress.begin("surface", workOfSurface(areas[i], scene.objects[i].mesh.cornerCount()));
-    if (surface.until.levels) {
-      convertPolygons(surface, options.separation, budget, progress, grid, part, report.warnings);
+    if (surface.way.polygons) {
+      convertPolygons(surface, options, budget, progress, grid, part, report.warnings);
     } else {
       SurfaceReport marked;
       markSurface(surface.base, options.surface, budget, progress, grid, marked);
@@ -249,7 +267,7 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, options, transform, report);
   for (const GridKind kind : kinds) {
-    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, budget);
+    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, budget, progress);
     progress.check();
     for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
       grid->insertMeta(entry->first, *entry->second);

@@ -3,8 +3,10 @@
 #include "libvox/pipeline/grids.h"
 
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/normals.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
+#include "libvox/volume/normal_grid.h"
 
 #include <openvdb/openvdb.h>
 
@@ -16,14 +18,15 @@
 namespace vox {
 namespace {
 
-/// Bytes of a tree of floats with the nodes of a mask.
-std::uint64_t bytesOfDensity(const openvdb::MaskTree& mask) {
-  using Leaf = openvdb::FloatTree::LeafNodeType;
-  using Upper = openvdb::FloatTree::RootNodeType::ChildNodeType;
-  using Lower = Upper::ChildNodeType;
+/// Bytes of a tree of values with the nodes of a mask.
+template <class TreeT>
+std::uint64_t bytesOfTree(const openvdb::MaskTree& mask) {
+  using Leaf = typename TreeT::LeafNodeType;
+  using Upper = typename TreeT::RootNodeType::ChildNodeType;
+  using Lower = typename Upper::ChildNodeType;
   const auto nodes = mask.nodeCount();  // leaves first, root last
-  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(float)) + nodes[1] * sizeof(Lower) +
-         nodes[2] * sizeof(Upper);
+  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(typename TreeT::ValueType)) +
+         nodes[1] * sizeof(Lower) + nodes[2] * sizeof(Upper);
 }
 
 /// Bytes of nodes per square voxel of a surface: 1.5 leaves per 64 and 1.5 inner nodes per 16384,
@@ -37,9 +40,25 @@ double bytesPerArea(double valueBytes) {
 
 double bytesOfGrids(double area, std::span<const GridKind> kinds) {
   double perArea = bytesPerArea<openvdb::MaskTree>(0);
-  for (const GridKind kind : kinds)
+  for (const GridKind kind : kinds) {
     if (kind == GridKind::kDensity) perArea += bytesPerArea<openvdb::FloatTree>(sizeof(float));
+    if (kind == GridKind::kNormal)
+      perArea += bytesPerArea<openvdb::Vec3STree>(sizeof(openvdb::Vec3s));
+  }
   return area * perArea;
+}
+
+openvdb::GridBase::Ptr makeNormals(const openvdb::MaskGrid& mask,
+                                   std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
+                                   Progress& progress) {
+  constexpr const char* kAdvice = "leave it out, use larger voxels, or raise --max-memory";
+  budget.take(bytesOfTree<openvdb::Vec3STree>(mask.tree()), "the normal grid", kAdvice);
+  budget.require(VoxelSums::bytesFor(mask.activeVoxelCount(), mask.tree().leafCount()),
+                 "the normals", kAdvice);
+  VoxelSums sums(mask.tree());
+  for (const PreparedSurface& surface : surfaces)
+    addNormals(surface.base, surface.way, progress, sums);
+  return normalGrid(mask, sums);
 }
 
 }  // namespace
@@ -47,8 +66,10 @@ double bytesOfGrids(double area, std::span<const GridKind> kinds) {
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds) {
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   double work = 0;
-  for (const GridKind kind : kinds)
+  for (const GridKind kind : kinds) {
     if (kind == GridKind::kDensity) work += workOfDensity(area);
+    if (kind == GridKind::kNormal) work += workOfNormals(area);
+  }
   return work;
 }
 
@@ -72,20 +93,31 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 }
 
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> /*surfaces*/,
-                                MemoryBudget& budget) {
-  if (kind == GridKind::kMask) return mask;
-  budget.take(bytesOfDensity(mask->tree()), "the density grid", kScatteredAdvice);
-  return densityGrid(*mask);
+                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
+                                Progress& progress) {
+  switch (kind) {
+    case GridKind::kMask:
+      break;
+    case GridKind::kDensity:
+      budget.take(bytesOfTree<openvdb::FloatTree>(mask->tree()), "the density grid",
+                  kScatteredAdvice);
+      return densityGrid(*mask);
+    case GridKind::kNormal:
+      return makeNormals(*mask, surfaces, budget, progress);
+  }
+  return mask;
 }
 
 std::uint64_t expectedBytes(std::span<const openvdb::GridBase::Ptr> grids) {
   constexpr std::uint64_t kPerLeaf = 145;
   constexpr std::uint64_t kPerLeafOfValues = 195;
+  constexpr std::uint64_t kPerLeafOfVectors = 800;
   std::uint64_t bytes = 0;
   for (const auto& grid : grids)
-    bytes += grid->constBaseTree().leafCount() *
-             (grid->isType<openvdb::MaskGrid>() ? kPerLeaf : kPerLeafOfValues);
+    bytes += grid->constBaseTree().leafCount() * (grid->isType<openvdb::MaskGrid>() ? kPerLeaf
+                                                  : grid->isType<openvdb::Vec3SGrid>()
+                                                      ? kPerLeafOfVectors
+                                                      : kPerLeafOfValues);
   return bytes;
 }
 

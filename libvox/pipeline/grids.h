@@ -3,7 +3,7 @@
 #include "libvox/core/memory.h"
 #include "libvox/grid/grid_kind.h"
 #include "libvox/grid/transform.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/pipeline/choose.h"
 #include "libvox/subdivide/level.h"
 
 #include <openvdb/openvdb.h>
@@ -19,7 +19,7 @@ namespace vox {
 struct PreparedSurface {
   std::string name;
   SubdivisionLevel base;
-  StopRule until;
+  ConversionWay way;
 };
 
 /// What to do about a grid that is too large.
@@ -38,8 +38,10 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 
 /// The output grid of a kind, from the black voxels and the surfaces they came from.
 /// @throws LimitError  it does not fit into the budget
+/// @throws Cancelled
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget);
+                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
+                                Progress& progress);
 
 /// Work of making grids (work.h), by the area of each object in square voxels.
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds);

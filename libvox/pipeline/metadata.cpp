@@ -25,6 +25,7 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
     text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
   if (options.weldTolerance) text << " weld=" << *options.weldTolerance;
   if (options.until) text << " until=" << stopRuleName(*options.until);
+  if (options.voxelize) text << " voxelize=" << voxelizeName(*options.voxelize);
   return text.str();
 }
 

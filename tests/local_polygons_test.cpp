@@ -1,0 +1,141 @@
+#include "libvox/subdivide/local_polygons.h"
+
+#include "libvox/grid/transform.h"
+#include "libvox/localize/partition.h"
+#include "libvox/mesh/validate.h"
+#include "libvox/prepare/repair.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "tests/shapes.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <random>
+
+using namespace vox;
+
+namespace {
+
+/// Joins points of the same bits.
+class Welder : public PolygonSink {
+ public:
+  PolygonMesh mesh;
+
+  void polygons(const PolygonMesh& piece) override {
+    std::vector<Index> face;
+    for (Index f = 0; f < piece.faceCount(); ++f) {
+      face.clear();
+      for (const Index v : piece.face(f)) face.push_back(numberOf(piece.points[v]));
+      mesh.addFace(face);
+    }
+  }
+
+ private:
+  Index numberOf(const Vec3d& p) {
+    const auto [entry, isNew] = numbers_.try_emplace({p.x(), p.y(), p.z()}, mesh.pointCount());
+    if (isNew) mesh.points.push_back(p);
+    return entry->second;
+  }
+  std::map<std::array<double, 3>, Index> numbers_;
+};
+
+PolygonMesh refined(const SubdivisionLevel& base, const std::vector<VertexDepth>& depths,
+                    Index submeshFaces) {
+  Welder welder;
+  LocalPolygons polygons(base);
+  const Partition partition = coverGreedily(base.mesh, base.adjacency, submeshFaces);
+  for (Index s = 0; s < partition.size(); ++s) polygons.emit(partition.submesh(s), depths, welder);
+  return welder.mesh;
+}
+
+SubdivisionLevel prepared(const PolygonMesh& mesh, BoundaryRule rule) {
+  RepairReport report;
+  return baseLevel(repair(mesh, {}, report), rule);
+}
+
+std::vector<VertexDepth> uniform(const SubdivisionLevel& base, int k) {
+  const auto depth = static_cast<std::uint8_t>(k);
+  return {base.mesh.cornerCount(), VertexDepth{depth, depth}};
+}
+
+/// Deep and shallow beside each other; of regular vertices along u and v apart.
+std::vector<VertexDepth> randomDepths(const SubdivisionLevel& base, int most, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> level(0, most);
+  const auto next = [&] { return static_cast<std::uint8_t>(level(random)); };
+  const auto regular = regularCorners(base);
+  std::vector<VertexDepth> depths;
+  for (const std::uint8_t isRegular : regular) {
+    const std::uint8_t k = next();
+    depths.push_back({k, isRegular ? next() : k});
+  }
+  return depths;
+}
+
+/// Every shape, with the boundary rules that it can have.
+template <class Check>
+void forShapes(Check&& check) {
+  for (const auto* shapes : {&test::shapes(), &test::openShapes()})
+    for (const auto& shape : *shapes)
+      for (const auto rule : {BoundaryRule::kExtend, BoundaryRule::kFree}) {
+        if (shape.closed && rule == BoundaryRule::kFree) continue;
+        CAPTURE(shape.name, rule == BoundaryRule::kFree);
+        check(prepared(shape.mesh, rule));
+      }
+  const SubdivisionLevel cone = prepared(test::pyramid(60), BoundaryRule::kExtend);
+  CAPTURE("cone");
+  check(cone);
+}
+
+std::size_t boundaryEdges(const PolygonMesh& mesh) {
+  const Adjacency adjacency = buildAdjacency(mesh);
+  return static_cast<std::size_t>(std::count(adjacency.twin.begin(), adjacency.twin.end(), kNone));
+}
+
+}  // namespace
+
+TEST_CASE("at one depth everywhere, local polygons are the level of global Doo-Sabin",
+          "[subdivide][localize][property]") {
+  forShapes([](const SubdivisionLevel& base) {
+    for (const int levels : {1, 2, 4}) {
+      CAPTURE(levels);
+      const SubdivisionLevel global = subdivide(base, levels);
+      const PolygonMesh local = refined(base, uniform(base, levels - 1), 3);
+      CHECK(local.faceCount() == global.mesh.faceCount());
+      CHECK(local.cornerCount() == global.mesh.cornerCount());
+      const Box extent = [&] {
+        Box box;
+        for (const Vec3d& p : base.mesh.points) box.add(p);
+        return box;
+      }();
+      CHECK(test::samePoints(local.points, global.mesh.points, 1e-12 * extent.longestSide()));
+      CHECK(boundaryEdges(local) == boundaryEdges(global.mesh));
+    }
+  });
+}
+
+TEST_CASE("whatever the depths, the polygons have no gap", "[subdivide][localize][property]") {
+  std::uint32_t seed = 0;
+  forShapes([&](const SubdivisionLevel& base) {
+    const SubdivisionLevel first = subdivide(base, 1);
+    const auto characteristic = test::eulerCharacteristic(first.mesh);
+    const std::size_t loops = boundaryLoops(first.mesh, first.adjacency).size();
+    for (int i = 0; i < 3; ++i) {
+      CAPTURE(++seed);
+      const auto depths = randomDepths(base, 4, seed);
+      const PolygonMesh mesh = refined(base, depths, 3);
+      CHECK_NOTHROW(requireManifold(mesh, buildAdjacency(mesh)));
+      CHECK(test::eulerCharacteristic(mesh) == characteristic);
+      const Adjacency adjacency = buildAdjacency(mesh);
+      CHECK(boundaryLoops(mesh, adjacency).size() == loops);
+      if (loops == 0) CHECK(boundaryEdges(mesh) == 0);
+
+      // However the surface is cut up, faces have the same bits.
+      const PolygonMesh whole = refined(base, depths, 100000);
+      CHECK(whole.faceCount() == mesh.faceCount());
+      CHECK(test::samePoints(whole.points, mesh.points, 0));
+    }
+  });
+}
