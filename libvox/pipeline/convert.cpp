@@ -283,13 +283,13 @@ void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
 }
 
 /// Polygon conversion of an object, with a warning if its polygons are not what they should be.
-void convertPolygons(PreparedObject prepared, const StopRule& until, const ConvertOptions& options,
-                     const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
-                     ObjectReport& part, std::vector<std::string>& warnings) {
-  markPolygons(std::move(prepared.base), until, options.surface, options.separation, budget,
-               progress, grid, part.polygons);
+void convertPolygons(PreparedObject prepared, const ConversionWay& way,
+                     const SurfaceOptions& options, const MemoryBudget& budget, Progress& progress,
+                     SurfaceGrid& grid, ObjectReport& part, std::vector<std::string>& warnings) {
+  markPolygons(std::move(prepared.base), way.until, options, way.separation, budget, progress, grid,
+               part.polygons);
   part.byPolygons = true;
-  part.until = until;
+  part.until = way.until;
   part.levels = part.polygons.levels;
   part.submeshes = part.polygons.submeshes;
   const std::uint64_t fanned = part.polygons.fanned;
@@ -327,7 +327,7 @@ openvdb::MaskGrid::Ptr convertObjects(const Scene& scene, const ConvertOptions& 
     const ConversionWay way = chooseWay(prepared.base, until, voxelizeOf(object, scene, options),
                                         options.separation, options.surface, progress);
     if (way.polygons) {
-      convertPolygons(std::move(prepared), way.until, options, budget, progress, grid, part,
+      convertPolygons(std::move(prepared), way, options.surface, budget, progress, grid, part,
                       report.warnings);
     } else {
       SurfaceReport surface;
