@@ -42,11 +42,12 @@ class Welder : public PolygonSink {
 };
 
 PolygonMesh refined(const SubdivisionLevel& base, const std::vector<VertexDepth>& depths,
-                    Index submeshFaces) {
+                    Index submeshFaces, const DepthRule* rule = nullptr) {
   Welder welder;
   LocalPolygons polygons(base);
   const Partition partition = coverGreedily(base.mesh, base.adjacency, submeshFaces);
-  for (Index s = 0; s < partition.size(); ++s) polygons.emit(partition.submesh(s), depths, welder);
+  for (Index s = 0; s < partition.size(); ++s)
+    polygons.emit(partition.submesh(s), depths, rule, welder);
   return welder.mesh;
 }
 
@@ -138,4 +139,30 @@ TEST_CASE("whatever the depths, the polygons have no gap", "[subdivide][localize
       CHECK(test::samePoints(whole.points, mesh.points, 0));
     }
   });
+}
+
+TEST_CASE("polygons as fine as a rule says have no gap, thin parts with fewer vertices included",
+          "[subdivide][localize][property]") {
+  std::size_t saved = 0;
+  for (const StopRule& until :
+       {StopRule{{}, {}, {}, 0.05}, StopRule{{}, 4.0}, StopRule{{}, {}, 8.0}})
+    forShapes([&](SubdivisionLevel base) {
+      CAPTURE(stopRuleName(until));
+      for (Vec3d& p : base.mesh.points) p *= 60;
+      const SubdivisionLevel first = subdivide(base, 1);
+      const DepthRule rule(until);
+      std::vector<VertexDepth> depths(base.mesh.cornerCount());
+      LocalPolygons polygons(base);
+      const Partition partition = coverGreedily(base.mesh, base.adjacency, 3);
+      for (Index s = 0; s < partition.size(); ++s)
+        polygons.findDepths(partition.submesh(s), rule, depths);
+      const PolygonMesh mesh = refined(base, depths, 3, &rule);
+      const Adjacency adjacency = buildAdjacency(mesh);
+      CHECK_NOTHROW(requireManifold(mesh, adjacency));
+      CHECK(test::eulerCharacteristic(mesh) == test::eulerCharacteristic(first.mesh));
+      CHECK(boundaryLoops(mesh, adjacency).size() ==
+            boundaryLoops(first.mesh, first.adjacency).size());
+      saved += mesh.pointCount() < refined(base, depths, 3).pointCount();
+    });
+  CHECK(saved > 10);
 }

@@ -92,12 +92,12 @@ std::string faultOf(const StopRule& until, Voxelize voxelize, Separation separat
 ConversionWay chooseWay(const SubdivisionLevel& base, const StopRule& until, Voxelize voxelize,
                         Separation separation, const SurfaceOptions& options,
                         const Progress& progress) {
-  if (!until.untilVoxel()) return {true, until};
-  if (voxelize == Voxelize::kPolygon) return {true, {.diameter = 1}};
+  if (!until.untilVoxel()) return {true, until, separation};
+  if (voxelize == Voxelize::kPolygon) return {true, {.diameter = 1}, separation};
   if (voxelize == Voxelize::kVertex) return {};
   const bool polygons = separation == Separation::k26 ||
                         (options.localize != Localize::kOff && hasSlivers(base, options, progress));
-  if (polygons) return {true, {.flatness = kAutomaticFlatness}};
+  if (polygons) return {true, {.flatness = kAutomaticFlatness}, Separation::k26};
   return {};
 }
 

@@ -11,7 +11,8 @@ namespace vox {
 /// How an object becomes voxels.
 struct ConversionWay {
   bool polygons = false;
-  StopRule until;  ///< of the polygons
+  StopRule until = {};  ///< of the polygons
+  Separation separation = Separation::k6;
 };
 
 /// Distance between polygons and smooth surface where polygons stand in for vertices, in voxels.
@@ -30,7 +31,9 @@ std::string faultOf(const StopRule& until, Voxelize voxelize, Separation separat
 ///
 /// Stop rules with limits mean polygons, refined to them. Until voxel: vertices by default;
 /// kPolygon: polygons whose faces fit into voxels; and with kAuto polygons of kAutomaticFlatness
-/// where vertices cannot do it (26-separating) or would be more than kMostVerticesPerVoxel. How
+/// where vertices cannot do it (26-separating) or would be more than kMostVerticesPerVoxel: scanned
+/// 26-separating, since that has about the voxels that vertices would blacken, and nothing thin
+/// gets lost. How
 /// many they would be is counted, patch by patch, only for meshes that look like it: whose long
 /// faces have little area.
 /// @throws LimitError, Cancelled

@@ -171,11 +171,11 @@ void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
 }
 
 /// Polygon conversion of an object, with a warning if its polygons are not what they should be.
-void convertPolygons(const PreparedSurface& surface, const ConvertOptions& options,
+void convertPolygons(const PreparedSurface& surface, const SurfaceOptions& options,
                      const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
                      ObjectReport& part, std::vector<std::string>& warnings) {
-  markPolygons(surface.base, surface.way.until, options.surface, options.separation, budget,
-               progress, grid, part.polygons);
+  markPolygons(surface.base, surface.way.until, options, surface.way.separation, budget, progress,
+               grid, part.polygons);
   part.byPolygons = true;
   part.until = surface.way.until;
   part.levels = part.polygons.levels;
@@ -226,7 +226,7 @@ openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<const PreparedS
     ObjectReport& part = report.objects[i];
     progress.begin("surface", workOfSurface(areas[i], scene.objects[i].mesh.cornerCount()));
     if (surface.way.polygons) {
-      convertPolygons(surface, options, budget, progress, grid, part, report.warnings);
+      convertPolygons(surface, options.surface, budget, progress, grid, part, report.warnings);
     } else {
       SurfaceReport marked;
       markSurface(surface.base, options.surface, budget, progress, grid, marked);

@@ -102,11 +102,11 @@ PolygonPlan planPolygons(const SubdivisionLevel& base, const StopRule& until, In
   PolygonPlan plan;
   plan.partition = coverGreedily(base.mesh, base.adjacency, submeshFaces);
   plan.depths.resize(base.mesh.cornerCount());
-  const DepthRule rule(until);
+  plan.rule = std::make_shared<const DepthRule>(until);
   tbb::enumerable_thread_specific<LocalPolygons> locals([&] { return LocalPolygons(base); });
   forEach(plan.partition.size(), 1, [&](Index s) {
     progress.check();
-    locals.local().findDepths(plan.partition.submesh(s), rule, plan.depths);
+    locals.local().findDepths(plan.partition.submesh(s), *plan.rule, plan.depths);
   });
   for (const VertexDepth depth : plan.depths) {
     plan.vertices += verticesOf(depth);
@@ -122,7 +122,7 @@ void makePolygons(const SubdivisionLevel& base, const PolygonPlan& plan, Progres
   forEach(plan.partition.size(), 1, [&](Index s) {
     const auto faces = plan.partition.submesh(s);
     TaskSink sink(sinkOfThread, progress, plan.vertices);
-    locals.local().emit(faces, plan.depths, sink);
+    locals.local().emit(faces, plan.depths, plan.rule.get(), sink);
     double vertices = 0;
     for (const Index f : faces)
       for (Index c = base.mesh.faceOffsets[f]; c < base.mesh.faceOffsets[f + 1]; ++c)
@@ -137,7 +137,7 @@ TriangleSoup triangleSoup(const SubdivisionLevel& base, const StopRule& until, P
   tbb::enumerable_thread_specific<LocalPolygons> locals([&] { return LocalPolygons(base); });
   forEach(plan.partition.size(), 1, [&](Index s) {
     progress.check();
-    locals.local().emit(plan.partition.submesh(s), plan.depths, parts[s]);
+    locals.local().emit(plan.partition.submesh(s), plan.depths, plan.rule.get(), parts[s]);
   });
   TriangleSoup all;
   for (SoupSink& part : parts) {

@@ -3,12 +3,14 @@
 #include "libvox/core/progress.h"
 #include "libvox/localize/partition.h"
 #include "libvox/mesh/stop_rule.h"
+#include "libvox/subdivide/depth_rule.h"
 #include "libvox/subdivide/level.h"
 #include "libvox/subdivide/polygon_sink.h"
 #include "libvox/subdivide/vertex_array.h"
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace vox {
@@ -17,8 +19,9 @@ namespace vox {
 struct PolygonPlan {
   Partition partition;              ///< submeshes
   std::vector<VertexDepth> depths;  ///< of the level-1 vertex of each corner
-  double vertices = 0;              ///< in all
-  int levels = 0;                   ///< Doo-Sabin steps down to the deepest vertex
+  std::shared_ptr<const DepthRule> rule;
+  double vertices = 0;  ///< of all these arrays; where they are thin, fewer are made
+  int levels = 0;       ///< Doo-Sabin steps down to the deepest vertex
 };
 
 /// More polygons than anybody waits for: some hours.

@@ -110,12 +110,13 @@ Patch completed(Patch patch) {
 /// Second differences of a patch, at their largest: along its normal, with what may turn into it.
 struct PatchBends {
   double uu = 0, vv = 0, uv = 0;
+  double sine = 0;  ///< of the largest angle between the mean normal and another
 
-  explicit PatchBends(const Patch& partial) {
-    const Patch patch = completed(partial);
+  /// @param patch  complete
+  explicit PatchBends(const Patch& patch) {
     const auto& p = patch.points;
     const Vec3d normal = normalOf(p[2][1] - p[0][1], p[1][2] - p[1][0]);
-    const double sine = largestSine(patch, normal);
+    sine = largestSine(patch, normal);
     const auto take = [&](double& largest, const Vec3d& bend) {
       const double size = bend.norm();
       largest = std::max(largest, std::min(size, std::abs(normal.dot(bend)) + sine * size));
@@ -147,13 +148,36 @@ struct PatchBends {
   }
 };
 
-class FlatnessCriterion : public SummaryCriterion<FlatnessCriterion, PatchBends> {
+/// One level below a complete patch.
+std::array<Patch, 4> childrenOf(const Patch& patch) {
+  std::array<CurvePoints, 4> rows;
+  for (int i = -1; i <= 2; ++i) rows[static_cast<std::size_t>(i + 1)] = rowOf(patch, {i, 2});
+  std::array<Patch, 4> children;
+  for (std::size_t child = 0; child < 4; ++child)
+    for (std::size_t u = 0; u < 3; ++u)
+      for (std::size_t v = 0; v < 3; ++v) {
+        const CurvePoints& row = rows[child / 2 + u];
+        const auto j = static_cast<std::int64_t>(child % 2 + v) - 1;
+        children[child].points[u][v] = PatchWeights(j, 2)(row[0], row[1], row[2]);
+      }
+  return children;
+}
+
+class FlatnessCriterion : public Criterion {
  public:
   explicit FlatnessCriterion(double limit) : limit_(limit) {}
 
-  bool fineBelow(const PatchBends& bends, int u, int v) const {
-    return (halved(bends.uu, 2 * u) + halved(bends.vv, 2 * v)) / 8 + halved(bends.uv, u + v) / 4 <=
-           limit_;
+  int squareDepth(const Patch& patch, int most) const override {
+    constexpr int kMostSplits = 4;
+    return squareDepth(completed(patch), most, kMostSplits);
+  }
+  VertexDepth regularDepth(const Patch& partial, int most) const override {
+    const Patch patch = completed(partial);
+    const PatchBends bends(patch);
+    const VertexDepth apart =
+        leastDepths(most, [&](int u, int v) { return fineBelow(bends, u, v); });
+    const int square = squareDepth(patch, most);
+    return 2 * square < apart.u + apart.v ? squareOf(square) : apart;
   }
   bool fine(const VertexFaces& faces) const override {
     const Vec3d normal = normalOf(faces.next - faces.left, faces.previous - faces.right);
@@ -175,6 +199,23 @@ class FlatnessCriterion : public SummaryCriterion<FlatnessCriterion, PatchBends>
   }
 
  private:
+  bool fineBelow(const PatchBends& bends, int u, int v) const {
+    return (halved(bends.uu, 2 * u) + halved(bends.vv, 2 * v)) / 8 + halved(bends.uv, u + v) / 4 <=
+           limit_;
+  }
+
+  /// Where the patch turns much, its parts have better normals to measure along.
+  int squareDepth(const Patch& patch, int most, int splits) const {
+    constexpr double kTurnsMuch = 0.1;
+    const PatchBends bends(patch);
+    const int k = leastDepth(most, [&](int depth) { return fineBelow(bends, depth, depth); });
+    if (k < 2 || splits == 0 || bends.sine < kTurnsMuch) return k;
+    int below = 0;
+    for (const Patch& child : childrenOf(patch))
+      below = std::max(below, squareDepth(child, k - 1, splits - 1));
+    return 1 + below;
+  }
+
   double limit_;
 };
 
@@ -369,6 +410,15 @@ VertexDepth DepthRule::of(const LevelOneVertex& vertex, const VertexFaces* faces
   VertexDepth least = squareOf(most_);
   for (const auto& criterion : criteria_) {
     const VertexDepth depth = depthFor(*criterion, vertex, faces, curves, most_);
+    if (depth.u + depth.v < least.u + least.v) least = depth;
+  }
+  return least;
+}
+
+VertexDepth DepthRule::within(const Patch& patch, VertexDepth own) const {
+  VertexDepth least = own;
+  for (const auto& criterion : criteria_) {
+    const VertexDepth depth = criterion->regularDepth(patch, std::max(own.u, own.v));
     if (depth.u + depth.v < least.u + least.v) least = depth;
   }
   return least;

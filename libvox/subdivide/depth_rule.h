@@ -63,8 +63,9 @@ class DepthRule {
   VertexDepth of(const LevelOneVertex& vertex, const VertexFaces* faces,
                  const BoundaryCurves& curves) const;
 
-  /// Whether every vertex has the same depth.
-  bool uniform() const { return criteria_.empty(); }
+  /// Depth that would do for a regular vertex within the array of another, if that is less than its
+  /// own.
+  VertexDepth within(const Patch& patch, VertexDepth own) const;
 
  private:
   int most_;  ///< levels below level 1

@@ -2,6 +2,7 @@
 
 #include "libvox/subdivide/local_polygons.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -72,8 +73,9 @@ void LocalPolygons::findDepths(std::span<const Index> faces, const DepthRule& ru
 }
 
 void LocalPolygons::emit(std::span<const Index> faces, std::span<const VertexDepth> depths,
-                         PolygonSink& sink) {
+                         const DepthRule* rule, PolygonSink& sink) {
   vertices_.set(faces);
+  rule_ = rule;
   depths_ = depths;
   const PolygonMesh& mesh = vertices_.images().base().mesh;
   PolygonPieces pieces(sink);
@@ -118,6 +120,12 @@ void LocalPolygons::emitFace(const Corner& first, PolygonPieces& pieces, Polygon
 void LocalPolygons::emitArray(const VertexArray& array, bool whole, PolygonPieces& pieces,
                               PolygonSink& sink) {
   if (!whole || array.depth().u == 0 || array.depth().v == 0) return;
+  if (array.blocks().size() > 1 && emitBlocks(array, pieces, sink)) return;
+  emitGrid(array, pieces, sink);
+}
+
+/// The faces between all vertices of an array.
+void LocalPolygons::emitGrid(const VertexArray& array, PolygonPieces& pieces, PolygonSink& sink) {
   if (array.depth().u + array.depth().v > kMostLog2OfPiece) {
     sink.tiles(ArrayTiles(std::make_shared<const VertexArray>(array)));
     return;
@@ -132,6 +140,88 @@ void LocalPolygons::emitArray(const VertexArray& array, bool whole, PolygonPiece
       pieces.addFace({here - width + j, here + j, here + j + 1, here - width + j + 1});
   }
   pieces.breathe();
+}
+
+/// The array of an irregular vertex block by block, if that saves much.
+/// @return whether it does
+bool LocalPolygons::emitBlocks(const VertexArray& array, PolygonPieces& pieces, PolygonSink& sink) {
+  if (rule_ == nullptr) return false;
+  const auto log2Vertices = [](VertexDepth depth) { return depth.u + depth.v; };
+  constexpr int kLeastSaving = 2;
+  within_.clear();
+  bool saves = false;
+  for (const VertexArray::Block& block : array.blocks()) {
+    VertexDepth least = rule_->within(block.patch, block.depth);
+    // The outermost rows stay, 4 x 2^u vertices.
+    const bool much = block.depth.u > kLeastSaving + 1 &&
+                      log2Vertices(least) + kLeastSaving <= log2Vertices(block.depth);
+    if (!much) least = block.depth;
+    saves |= much;
+    within_.push_back(least);
+  }
+  if (!saves) return false;
+  for (std::size_t b = 0; b < within_.size(); ++b) {
+    const VertexArray::Block& block = array.blocks()[b];
+    const bool less = !(within_[b] == block.depth);
+    inner_.set(block.patch, within_[b]);
+    if (block.depth.u > 0 && (less || block.depth.v > 0)) emitGrid(inner_, pieces, sink);
+    if (less) emitRim(array, block, pieces);
+    emitSeams(array, block, pieces);
+  }
+  return true;
+}
+
+/// Between the outermost rows of a block and the fewer vertices within.
+void LocalPolygons::emitRim(const VertexArray& array, const VertexArray::Block& block,
+                            PolygonPieces& pieces) {
+  const auto alongV = [&](std::int64_t i) {
+    return SideRow{block.depth.v, [&array, &block, i](std::int64_t first, std::span<Vec3d> points) {
+                     array.alongV(i, block.v + first, points);
+                   }};
+  };
+  const auto alongU = [&](std::int64_t j) {
+    return SideRow{block.depth.u, [&array, &block, j](std::int64_t first, std::span<Vec3d> points) {
+                     array.alongU(j, block.u + first, points);
+                   }};
+  };
+  stitch(alongV(block.u), sideOfL(inner_), pieces);
+  stitch(sideOfNext(inner_), alongV(block.endU() - 1), pieces);
+  stitch(sideOfR(inner_), alongU(block.v), pieces);
+  stitch(alongU(block.endV() - 1), sideOfPrevious(inner_), pieces);
+}
+
+/// The faces between a block and those that come after it along u and v.
+void LocalPolygons::emitSeams(const VertexArray& array, const VertexArray::Block& block,
+                              PolygonPieces& pieces) {
+  constexpr std::int64_t kFaces = 1024;
+  const auto addQuads = [&](std::int64_t faces, const auto& before, const auto& after) {
+    for (std::int64_t first = 0; first < faces; first += kFaces) {
+      const std::int64_t count = std::min(kFaces, faces - first);
+      star_.resize(static_cast<std::size_t>(count + 1));
+      before(first, star_);
+      const Index a = pieces.addPoints(star_);
+      after(first, star_);
+      const Index b = pieces.addPoints(star_);
+      for (Index j = 0; j < count; ++j) pieces.addFace({a + j, b + j, b + j + 1, a + j + 1});
+      pieces.breathe();
+    }
+  };
+  if (block.endU() < array.sizeU())
+    addQuads(
+        std::min(block.endV(), array.sizeV() - 1) - block.v,
+        [&](std::int64_t j, std::span<Vec3d> row) {
+          array.alongV(block.endU() - 1, block.v + j, row);
+        },
+        [&](std::int64_t j, std::span<Vec3d> row) {
+          array.alongV(block.endU(), block.v + j, row);
+        });
+  if (block.endV() < array.sizeV())
+    addQuads(
+        block.endU() - 1 - block.u,
+        [&](std::int64_t i, std::span<Vec3d> row) { array.alongU(block.endV(), block.u + i, row); },
+        [&](std::int64_t i, std::span<Vec3d> row) {
+          array.alongU(block.endV() - 1, block.u + i, row);
+        });
 }
 
 /// What a corner owns across its edge: the strip to the corner beyond, at the same vertex, and for

@@ -34,13 +34,20 @@ class LocalPolygons {
 
   /// Gives the sink the polygons that these faces own.
   /// @param depths  one per corner of the base mesh; of irregular vertices u = v
-  void emit(std::span<const Index> faces, std::span<const VertexDepth> depths, PolygonSink& sink);
+  /// @param rule    where given, parts of the arrays of irregular vertices that need fewer vertices
+  ///   by it, along u or v or both, get them: all but their outermost rows
+  void emit(std::span<const Index> faces, std::span<const VertexDepth> depths,
+            const DepthRule* rule, PolygonSink& sink);
 
  private:
   using Corner = LocalVertices::Corner;
 
   void emitFace(const Corner& first, PolygonPieces& pieces, PolygonSink& sink);
   void emitArray(const VertexArray& array, bool whole, PolygonPieces& pieces, PolygonSink& sink);
+  bool emitBlocks(const VertexArray& array, PolygonPieces& pieces, PolygonSink& sink);
+  void emitGrid(const VertexArray& array, PolygonPieces& pieces, PolygonSink& sink);
+  void emitRim(const VertexArray& array, const VertexArray::Block& block, PolygonPieces& pieces);
+  void emitSeams(const VertexArray& array, const VertexArray::Block& block, PolygonPieces& pieces);
   void emitEdge(const Corner& corner, const VertexArray& here, const VertexArray& next,
                 PolygonPieces& pieces);
   void emitBoundaryEdge(const Corner& corner, const VertexArray& here, const VertexArray& next,
@@ -50,7 +57,10 @@ class LocalPolygons {
 
   LocalVertices vertices_;
   std::span<const VertexDepth> depths_;
+  const DepthRule* rule_ = nullptr;
   VertexArray here_, next_, other_, otherFar_;
+  VertexArray inner_;                // of a block
+  std::vector<VertexDepth> within_;  // of the blocks of an array
   std::vector<Vec3d> polygon_;
   std::vector<Vec3d> star_;
 };

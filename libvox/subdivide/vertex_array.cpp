@@ -32,12 +32,9 @@ LevelOneVertex::LevelOneVertex() {
 }
 
 void VertexArray::set(const LevelOneVertex& vertex, VertexDepth depth) {
+  if (vertex.regular) return set(vertex.patch, depth);
   depth_ = depth;
   blocks_.clear();
-  if (vertex.regular) {
-    blocks_.push_back({vertex.patch, 0, 0, depth});
-    return;
-  }
   const int k = depth.u;
   if (k == 0) return addPoint(vertex.at, 0, 0);
   const std::int64_t half = std::int64_t{1} << (k - 1);

@@ -56,8 +56,25 @@ struct LevelOneVertex {
 /// evaluated in one way, so that they have the same bits for whoever asks.
 class VertexArray {
  public:
+  /// Part of the array: first row and column, logarithms of the sizes.
+  struct Block {
+    Patch patch;
+    std::int64_t u, v;
+    VertexDepth depth;
+    std::int64_t endU() const { return u + (std::int64_t{1} << depth.u); }
+    std::int64_t endV() const { return v + (std::int64_t{1} << depth.v); }
+  };
+
   /// @param depth  u = v for an irregular vertex
   void set(const LevelOneVertex& vertex, VertexDepth depth);
+  /// The array of a regular vertex of any level.
+  void set(const Patch& patch, VertexDepth depth) {
+    depth_ = depth;
+    blocks_.assign(1, {patch, 0, 0, depth});
+  }
+
+  /// They cover the array once.
+  const std::vector<Block>& blocks() const { return blocks_; }
 
   VertexDepth depth() const { return depth_; }
   std::int64_t sizeU() const { return std::int64_t{1} << depth_.u; }
@@ -79,15 +96,6 @@ class VertexArray {
   Vec3d cornerL() const { return at(0, sizeV() - 1); }
 
  private:
-  /// Part of the array: first row and column, logarithms of the sizes.
-  struct Block {
-    Patch patch;
-    std::int64_t u, v;
-    VertexDepth depth;
-    std::int64_t endU() const { return u + (std::int64_t{1} << depth.u); }
-    std::int64_t endV() const { return v + (std::int64_t{1} << depth.v); }
-  };
-
   void add(const Patch& patch, std::int64_t u, std::int64_t v, int k);
   void addPoint(const Vec3d& point, std::int64_t u, std::int64_t v);
   void addInF(ExtraordinaryRings& rings, std::size_t place, std::int64_t u, std::int64_t v, int k);
