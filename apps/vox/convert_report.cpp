@@ -63,6 +63,7 @@ Json optionsJson(const FinishedRun& run) {
           {"weld", orNull(options.weldTolerance)},
           {"strict", orNull(options.strict)},
           {"grids", options.grids ? gridNames(run) : Json()},
+          {"texture", options.texture ? Json(textureText(*options.texture)) : Json()},
           {"localize", localizeName(options.surface.localize)},
           {"submesh_faces", options.surface.submeshFaces},
           {"threads", options.run.threads > 0 ? Json(options.run.threads) : Json()},

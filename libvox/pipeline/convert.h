@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/grid/grid_kind.h"
+#include "libvox/grid/texture_spec.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/stop_rule.h"
 #include "libvox/pipeline/polygons.h"
@@ -37,6 +38,9 @@ struct ConvertOptions : PreparationOptions {
   std::optional<std::vector<GridKind>> grids;  ///< default: density
   std::optional<StopRule> until;               ///< default: voxel
   Separation separation = Separation::k6;      ///< k26 needs polygons: until levels
+  /// Of all objects, instead of their own textures and colours; adds the color grid to those of the
+  /// scene.
+  std::optional<TextureSpec> texture;
   SurfaceOptions surface;
   RunOptions run;
 };
@@ -80,7 +84,8 @@ struct Conversion {
 /// cut into submeshes. The progress keeps a share for writing the grids.
 ///
 /// @throws UsageError  dim, voxel size, number of threads, levels, smoothing or weld tolerance is
-///   nonsense; 26-separating voxels are asked for where an object is not to stop at a level
+///   nonsense; 26-separating voxels are asked for where an object is not to stop at a level; a
+///   texture is asked for without the color grid
 /// @throws InputError  the input has no extent and no voxel size is given
 /// @throws MeshError   as prepare (refine.h)
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid

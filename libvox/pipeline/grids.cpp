@@ -16,29 +16,23 @@
 namespace vox {
 namespace {
 
-/// Bytes of a tree of floats with the nodes of a mask.
-std::uint64_t bytesOfDensity(const openvdb::MaskTree& mask) {
-  using Leaf = openvdb::FloatTree::LeafNodeType;
-  using Upper = openvdb::FloatTree::RootNodeType::ChildNodeType;
-  using Lower = Upper::ChildNodeType;
-  const auto nodes = mask.nodeCount();  // leaves first, root last
-  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(float)) + nodes[1] * sizeof(Lower) +
-         nodes[2] * sizeof(Upper);
-}
-
 /// Bytes of nodes per square voxel of a surface: 1.5 leaves per 64 and 1.5 inner nodes per 16384,
 /// averaged over directions.
 template <class TreeT>
-double bytesPerArea(double valueBytes) {
+double bytesPerArea(std::size_t valueBytes) {
   using Leaf = typename TreeT::LeafNodeType;
   using Lower = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
-  return 1.5 * ((sizeof(Leaf) + Leaf::SIZE * valueBytes) / 64 + sizeof(Lower) / 16384.0);
+  const auto leafBytes = static_cast<double>(sizeof(Leaf) + Leaf::SIZE * valueBytes);
+  return 1.5 * (leafBytes / 64 + sizeof(Lower) / 16384.0);
 }
 
 double bytesOfGrids(double area, std::span<const GridKind> kinds) {
   double perArea = bytesPerArea<openvdb::MaskTree>(0);
-  for (const GridKind kind : kinds)
+  for (const GridKind kind : kinds) {
     if (kind == GridKind::kDensity) perArea += bytesPerArea<openvdb::FloatTree>(sizeof(float));
+    if (kind == GridKind::kColor)
+      perArea += bytesPerArea<openvdb::Vec3STree>(sizeof(openvdb::Vec3f));
+  }
   return area * perArea;
 }
 
@@ -47,8 +41,10 @@ double bytesOfGrids(double area, std::span<const GridKind> kinds) {
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds) {
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   double work = 0;
-  for (const GridKind kind : kinds)
+  for (const GridKind kind : kinds) {
     if (kind == GridKind::kDensity) work += workOfDensity(area);
+    if (kind == GridKind::kColor) work += workOfColor(area);
+  }
   return work;
 }
 
@@ -72,20 +68,30 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 }
 
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> /*surfaces*/,
-                                MemoryBudget& budget) {
-  if (kind == GridKind::kMask) return mask;
-  budget.take(bytesOfDensity(mask->tree()), "the density grid", kScatteredAdvice);
-  return densityGrid(*mask);
+                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget) {
+  switch (kind) {
+    case GridKind::kMask:
+      return mask;
+    case GridKind::kDensity:
+      budget.take(bytesOfGrid<openvdb::FloatTree>(mask->tree()), "the density grid",
+                  kScatteredAdvice);
+      return densityGrid(*mask);
+    case GridKind::kColor:
+      return makeColorGrid(*mask, surfaces, budget);
+  }
+  return nullptr;
 }
 
 std::uint64_t expectedBytes(std::span<const openvdb::GridBase::Ptr> grids) {
   constexpr std::uint64_t kPerLeaf = 145;
   constexpr std::uint64_t kPerLeafOfValues = 195;
+  constexpr std::uint64_t kPerLeafOfColors = 900;
   std::uint64_t bytes = 0;
   for (const auto& grid : grids)
-    bytes += grid->constBaseTree().leafCount() *
-             (grid->isType<openvdb::MaskGrid>() ? kPerLeaf : kPerLeafOfValues);
+    bytes += grid->constBaseTree().leafCount() * (grid->isType<openvdb::MaskGrid>() ? kPerLeaf
+                                                  : grid->isType<openvdb::Vec3SGrid>()
+                                                      ? kPerLeafOfColors
+                                                      : kPerLeafOfValues);
   return bytes;
 }
 

@@ -21,12 +21,20 @@ double workOfDensity(double area) {
   return 13 * area;
 }
 
+double workOfColor(double area) {
+  return 250 * area;
+}
+
 double workOfWritingMask(double area) {
   return 8 * area;
 }
 
 double workOfWritingDensity(double area) {
   return 32 * area;
+}
+
+double workOfWritingColor(double area) {
+  return 100 * area;
 }
 
 double areaOf(const PolygonMesh& mesh, Index face) {
