@@ -3,7 +3,12 @@
 #include "libvox/pipeline/colors.h"
 
 #include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/surface_colors.h"
+#include "libvox/subdivide/colored_surface.h"
 #include "libvox/volume/color.h"
+#include "libvox/volume/color_sums.h"
+
+#include <vector>
 
 namespace vox {
 namespace {
@@ -21,6 +26,18 @@ void paintTexture(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
   });
 }
 
+/// @param colors  of the corners
+void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
+                     const PreparedSurface& surface, std::span<const Vec3d> colors,
+                     MemoryBudget budget, const Progress& progress) {
+  budget.take(ColorSums::bytesFor(voxels) + colors.size_bytes(), "the sums of colours",
+              kScatteredAdvice);
+  ColorSums sums(voxels);
+  sampleColors(surface.base, colors, surface.until, budget, progress, sums);
+  sums.fillGaps();
+  paint(color, voxels, [&](const openvdb::Coord& voxel) { return sums.colorOf(voxel); });
+}
+
 }  // namespace
 
 std::optional<PlacedTexture> textureOf(const SceneObject& object,
@@ -35,12 +52,17 @@ std::optional<PlacedTexture> textureOf(const SceneObject& object,
 
 openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask,
                                      std::span<const PreparedSurface> surfaces,
-                                     MemoryBudget& budget) {
+                                     MemoryBudget& budget, const Progress& progress) {
   budget.take(bytesOfGrid<openvdb::Vec3STree>(mask.tree()), "the color grid", kScatteredAdvice);
   auto color = colorGrid(mask);
   for (const PreparedSurface& surface : surfaces) {
     const openvdb::MaskTree& voxels = surface.voxels ? *surface.voxels : mask.tree();
-    if (surface.texture) paintTexture(*color, voxels, *surface.texture);
+    progress.check();
+    const std::vector<Vec3d> colors = cornerColors(surface.base.mesh);
+    if (surface.texture)
+      paintTexture(*color, voxels, *surface.texture);
+    else if (!colors.empty())
+      paintMeshColors(*color, voxels, surface, colors, budget, progress);
   }
   return color;
 }

@@ -277,7 +277,7 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, options, transform, report);
   for (const GridKind kind : kinds) {
-    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, budget);
+    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, budget, progress);
     progress.check();
     for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
       grid->insertMeta(entry->first, *entry->second);

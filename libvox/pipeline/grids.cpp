@@ -68,7 +68,8 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 }
 
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget) {
+                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
+                                const Progress& progress) {
   switch (kind) {
     case GridKind::kMask:
       return mask;
@@ -77,7 +78,7 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mas
                   kScatteredAdvice);
       return densityGrid(*mask);
     case GridKind::kColor:
-      return makeColorGrid(*mask, surfaces, budget);
+      return makeColorGrid(*mask, surfaces, budget, progress);
   }
   return nullptr;
 }

@@ -54,7 +54,8 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 /// The output grid of a kind, from the black voxels and the surfaces they came from.
 /// @throws LimitError  it does not fit into the budget
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget);
+                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
+                                const Progress& progress);
 
 /// Work of making grids (work.h), by the area of each object in square voxels.
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds);
