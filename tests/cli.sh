@@ -237,6 +237,31 @@ printf '[convert]\nuntil = { levels = 31 }\n[[object]]\n%s\n' "$cube" >until.tom
 expect 3 'until.toml:2:20: levels must lie between 0 and 30' convert until.toml -o out.vdb
 expect 4 'use fewer levels' convert "$scenes/cube.obj" -o out.vdb --until levels=30 --max-memory 256M
 
+# Solid textures: from the scene, or of all objects.
+printf '[convert]\ndim = 8\ngrids = ["color"]\n[[object]]\n%s\ntexture = { kind = "checker", scale = 0.5, colors = ["#ff0000", [0, 0, 1]] }\n' "$cube" >texture.toml
+expect 0 'active voxels' convert texture.toml -o color.vdb
+expect 0 'active voxels' convert texture.toml -o color2.vdb --texture 'checker:scale=0.5,colors=1:0:0/0:0:1'
+expect 0 '' info color.vdb color2.vdb
+grep -q 'grid color: Tree_vec3s_5_4_3' stdout || fail "no color: $(cat stdout)"
+grep -q 'vox_options.*texture=checker:scale=0.5,colors=1:0:0/0:0:1' stdout || fail "no texture in the metadata: $(cat stdout)"
+expect 0 '' convert "$scenes/cube.obj" -o color3.vdb --dim 8 --texture marble
+expect 0 '' info color3.vdb
+[ "$(grep -c 'grid density\|grid color' stdout)" -eq 2 ] || fail "--texture does not bring the color grid: $(cat stdout)"
+expect 2 "unknown texture 'marbel'; known are checker" convert good.obj -o out.vdb --texture marbel
+expect 2 "texture checker has no 'size'; it has scale, space, colors" convert good.obj -o out.vdb --texture checker:size=1
+expect 2 '--texture needs color among --grids' convert good.obj -o out.vdb --texture checker --grids mask
+texture_error() {  # PATTERN TEXTURE
+  printf '[[object]]\n%s\ntexture = %s\n' "$cube" "$2" >texture.toml
+  expect 3 "texture.toml:3:$1" convert texture.toml -o out.vdb
+}
+texture_error "[0-9]+: unknown texture 'wood'" '"wood"'
+texture_error '11: texture must be a string' 7
+texture_error '11: a texture needs a kind' '{ scale = 1 }'
+texture_error "[0-9]+: texture marble: scale must be a number above 0, not '-1'" '{ kind = "marble", scale = -1 }'
+texture_error '[0-9]+: texture marble has no .size.; it has scale' '{ kind = "marble", size = 1 }'
+texture_error '[0-9]+: .*colors must be 2 to 16' '{ kind = "marble", colors = [[1, 0, 0]] }'
+texture_error '[0-9]+: colors must be a number, a text or a list' '{ kind = "marble", colors = [1, [], {}] }'
+
 # Faults of a mesh are repaired, and told.
 expect 0 '' convert winding.obj -o winding.vdb --dim 8
 grep -q 'warning: winding: dropped 1 duplicate face' stderr || fail "no word of the repair: $(cat stderr)"

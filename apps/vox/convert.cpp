@@ -30,6 +30,7 @@ struct Options {
   std::optional<bool> strict;
   SubmeshArguments submeshes;
   std::string grids;
+  std::string texture;
   std::string report;
   CommonOptions common;
 };
@@ -87,6 +88,7 @@ ConvertOptions parse(const Options& options) {
   parsed.surface = parseSubmeshes(options.submeshes);
   parsed.run = options.common.run;
   if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
+  if (!options.texture.empty()) parsed.texture = parseTexture(options.texture);
   return parsed;
 }
 
@@ -147,6 +149,13 @@ Action addConvert(CLI::App& app) {
           "--grids", options->grids,
           "Grids to write, with commas: " + allGridNames() + " (default: the scene's, or density)")
       ->type_name("LIST")
+      ->group("Output");
+  command
+      ->add_option("--texture", options->texture,
+                   "Solid texture of all objects, in the grid color: " + allTextureNames() +
+                       "; with parameters: marble:scale=0.2,seed=3 (default: the scene's textures, "
+                       "or the colours of the meshes)")
+      ->type_name("KIND[:KEY=VALUE,...]")
       ->group("Output");
   addSubmeshOptions(*command, options->submeshes);
   command

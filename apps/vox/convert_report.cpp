@@ -68,6 +68,7 @@ Json optionsJson(const FinishedRun& run) {
           {"voxelize", options.voxelize ? Json(voxelizeName(*options.voxelize)) : Json()},
           {"separating", options.separation == Separation::k26 ? 26 : 6},
           {"grids", options.grids ? gridNames(run) : Json()},
+          {"texture", options.texture ? Json(textureText(*options.texture)) : Json()},
           {"localize", localizeName(options.surface.localize)},
           {"submesh_faces", options.surface.submeshFaces},
           {"threads", options.run.threads > 0 ? Json(options.run.threads) : Json()},

@@ -7,7 +7,8 @@
 namespace vox {
 namespace {
 
-constexpr std::array<GridKind, 3> kAll = {GridKind::kDensity, GridKind::kMask, GridKind::kNormal};
+constexpr std::array kAll = {GridKind::kDensity, GridKind::kMask, GridKind::kNormal,
+                             GridKind::kColor};
 
 }  // namespace
 
@@ -19,6 +20,8 @@ std::string gridName(GridKind kind) {
       return "mask";
     case GridKind::kNormal:
       return "normal";
+    case GridKind::kColor:
+      return "color";
   }
   return {};
 }

@@ -12,6 +12,7 @@ enum class GridKind {
   kDensity,  ///< Float fog volume, 1 at black voxels
   kMask,     ///< the black voxels
   kNormal,   ///< Vec3s, unit normals of the surface at black voxels
+  kColor,    ///< Vec3s, linear colour of black voxels
 };
 
 /// Name in files, scenes and on the command line: "density".
@@ -20,7 +21,7 @@ std::string gridName(GridKind kind);
 /// Grid of that name, or nothing.
 std::optional<GridKind> gridNamed(std::string_view name);
 
-/// "density, mask, normal": for messages.
+/// "density, mask, normal, color": for messages.
 std::string allGridNames();
 
 }  // namespace vox

@@ -16,7 +16,9 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <locale>
 #include <numbers>
+#include <sstream>
 #include <string_view>
 
 namespace vox {
@@ -209,6 +211,7 @@ PolygonMesh readInlineMesh(const SceneText& text, const toml::node& points,
 
 struct Transform {
   Eigen::Affine3d map;
+  Eigen::Affine3d inverse;
   bool mirrors;  ///< an odd number of negative scales; the determinant itself may underflow
 };
 
@@ -229,11 +232,16 @@ Transform readTransform(const SceneText& text, const toml::table& table) {
     translate = requireVector(text, *node, "translate");
 
   const Vec3d radians = degrees * (std::numbers::pi / 180);
+  const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(radians.z(), Vec3d::UnitZ()) *
+                                    Eigen::AngleAxisd(radians.y(), Vec3d::UnitY()) *
+                                    Eigen::AngleAxisd(radians.x(), Vec3d::UnitX()))
+                                       .toRotationMatrix();
   const Eigen::Affine3d map =
-      Eigen::Translation3d(translate) * Eigen::AngleAxisd(radians.z(), Vec3d::UnitZ()) *
-      Eigen::AngleAxisd(radians.y(), Vec3d::UnitY()) *
-      Eigen::AngleAxisd(radians.x(), Vec3d::UnitX()) * Eigen::Scaling(scale);
-  return {map, (scale.array() < 0).count() % 2 == 1};
+      Eigen::Translation3d(translate) * Eigen::Affine3d(rotation) * Eigen::Scaling(scale);
+  const Eigen::Affine3d inverse = Eigen::Scaling(Vec3d(scale.cwiseInverse())) *
+                                  Eigen::Affine3d(rotation.transpose()) *
+                                  Eigen::Translation3d(-translate);
+  return {map, inverse, (scale.array() < 0).count() % 2 == 1};
 }
 
 void reverseFaces(PolygonMesh& mesh) {
@@ -242,14 +250,15 @@ void reverseFaces(PolygonMesh& mesh) {
                  mesh.faceVertices.begin() + mesh.faceOffsets[f + 1]);
 }
 
-void transformMesh(const SceneText& text, const toml::node& node, PolygonMesh& mesh) {
+void transformObject(const SceneText& text, const toml::node& node, SceneObject& object) {
   const Transform transform = readTransform(text, requireTable(text, node, "transform"));
-  for (Vec3d& point : mesh.points) {
+  object.fromWorld = transform.inverse;
+  for (Vec3d& point : object.mesh.points) {
     point = transform.map * point;
     if (!(point.cwiseAbs().maxCoeff() <= kMaxCoordinate))
       text.fail(node, "transform moves the object beyond 1e15");
   }
-  if (transform.mirrors) reverseFaces(mesh);
+  if (transform.mirrors) reverseFaces(object.mesh);
 }
 
 PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& scene) {
@@ -301,18 +310,61 @@ SmoothingOptions readSmoothing(const SceneText& text, const toml::table& table, 
   return smoothing;
 }
 
+/// A value as parseTexture has it: numbers of a list with : between them, lists of a list with /.
+std::string textureValue(const SceneText& text, const toml::node& node, const std::string& name) {
+  if (node.is_string()) return requireString(text, node, name);
+  if (node.is_number()) {
+    std::ostringstream number;
+    number.imbue(std::locale::classic());
+    number.precision(17);
+    number << requireNumber(text, node, name);
+    return number.str();
+  }
+  std::string value;
+  const toml::array* const list = node.as_array();
+  if (list == nullptr) text.fail(node, name + " must be a number, a text or a list of them");
+  for (const toml::node& item : *list) {
+    const char* const separator = item.is_number() ? ":" : "/";
+    value += (value.empty() ? "" : separator) + textureValue(text, item, name);
+  }
+  return value;
+}
+
+/// texture = "marble" or { kind = "marble", scale = 0.2 }
+TextureSpec readTexture(const SceneText& text, const toml::node& node) {
+  const toml::node* at = &node;  // what is wrong, if anything is
+  try {
+    const auto* table = node.as_table();
+    if (table == nullptr) return textureNamed(requireString(text, node, "texture"));
+    const auto* kind = table->get("kind");
+    if (kind == nullptr) text.fail(node, "a texture needs a kind, one of " + allTextureNames());
+    at = kind;
+    TextureSpec texture = textureNamed(requireString(text, *kind, "kind"));
+    for (const auto& [key, value] : *table) {
+      if (key.str() == "kind") continue;
+      at = &value;
+      const std::string name(key.str());
+      setTexture(texture, name, textureValue(text, value, name));
+    }
+    return texture;
+  } catch (const UsageError& error) {
+    text.fail(*at, error.what());
+  }
+}
+
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[[object]]",
                    {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
-                    "interpolate_vertices", "until", "voxelize"});
+                    "interpolate_vertices", "until", "voxelize", "texture"});
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
   if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");
   object.mesh = readObjectMesh(text, table, scene);
-  if (const auto* transform = table.get("transform")) transformMesh(text, *transform, object.mesh);
+  if (const auto* transform = table.get("transform")) transformObject(text, *transform, object);
   object.smoothing = readSmoothing(text, table, object.mesh.pointCount());
   if (const auto* until = table.get("until")) object.until = readStopRule(text, *until);
   if (const auto* way = table.get("voxelize")) object.voxelize = readVoxelize(text, *way);
+  if (const auto* texture = table.get("texture")) object.texture = readTexture(text, *texture);
   return object;
 }
 

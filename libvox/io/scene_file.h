@@ -1,9 +1,12 @@
 #pragma once
 
 #include "libvox/grid/grid_kind.h"
+#include "libvox/grid/texture_spec.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/mesh/smoothing.h"
 #include "libvox/mesh/stop_rule.h"
+
+#include <Eigen/Geometry>
 
 #include <filesystem>
 #include <optional>
@@ -18,6 +21,8 @@ struct SceneObject {
   SmoothingOptions smoothing = {};
   std::optional<StopRule> until = {};
   std::optional<Voxelize> voxelize = {};
+  std::optional<TextureSpec> texture = {};
+  Eigen::Affine3d fromWorld = Eigen::Affine3d::Identity();  ///< undoes the object's transform
 };
 
 /// What to convert, and how, as far as the scene says.

@@ -133,6 +133,8 @@ double workOfWriting(GridKind kind, double area) {
       return workOfWritingMask(area);
     case GridKind::kNormal:
       return workOfWritingNormals(area);
+    case GridKind::kColor:
+      return workOfWritingColor(area);
   }
   return 0;
 }
@@ -209,20 +211,23 @@ std::vector<PreparedSurface> prepareObjects(const Scene& scene, const ConvertOpt
     budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
     const ConversionWay way = chooseWay(prepared.base, until, voxelizeOf(object, scene, options),
                                         options.separation, options.surface, progress);
-    surfaces.push_back({object.name, std::move(prepared.base), way});
+    surfaces.push_back(
+        {object.name, std::move(prepared.base), way, textureOf(object, options.texture)});
   }
   return surfaces;
 }
 
 /// The voxels of all objects.
-openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<const PreparedSurface> surfaces,
+/// @param apart  whether each surface is to have its own besides
+openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<PreparedSurface> surfaces,
                                    const ConvertOptions& options, const GridTransform& transform,
-                                   std::span<const double> areas, MemoryBudget& budget,
+                                   bool apart, std::span<const double> areas, MemoryBudget& budget,
                                    Progress& progress, ConvertReport& report) {
   const StageTimer timer(report.surfaceSeconds);
   SurfaceGrid grid(budget.left());
+  auto all = std::make_shared<openvdb::MaskTree>();
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const PreparedSurface& surface = surfaces[i];
+    PreparedSurface& surface = surfaces[i];
     ObjectReport& part = report.objects[i];
     progress.begin("surface", workOfSurface(areas[i], scene.objects[i].mesh.cornerCount()));
     if (surface.way.polygons) {
@@ -232,14 +237,38 @@ openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<const PreparedS
       markSurface(surface.base, options.surface, budget, progress, grid, marked);
       noteSurface(marked, part);
     }
-    part.activeVoxels = grid.countVoxels() - report.activeVoxels;
+    if (apart) {
+      budget.take(2 * grid.memoryBytes(), "the grid", kScatteredAdvice);
+      surface.voxels = grid.takeTree();
+      all->topologyUnion(*surface.voxels);
+      grid.setMemoryLimit(budget.left());
+    }
+    part.activeVoxels =
+        (apart ? all->activeVoxelCount() : grid.countVoxels()) - report.activeVoxels;
     report.activeVoxels += part.activeVoxels;
   }
   budget.take(grid.memoryBytes(), "the grid", kScatteredAdvice);
-  auto mask = openvdb::MaskGrid::create(grid.takeTree());
+  auto mask = openvdb::MaskGrid::create(apart ? all : grid.takeTree());
   mask->setName(gridName(GridKind::kMask));
   mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
   return mask;
+}
+
+/// The grids asked for.
+std::vector<GridKind> gridsOf(const Scene& scene, const ConvertOptions& options) {
+  std::vector<GridKind> kinds =
+      options.grids.value_or(scene.grids.value_or(std::vector{GridKind::kDensity}));
+  const bool colored = std::find(kinds.begin(), kinds.end(), GridKind::kColor) != kinds.end();
+  if (!options.texture || colored) return kinds;
+  if (options.grids) throw UsageError("--texture needs color among --grids");
+  kinds.push_back(GridKind::kColor);
+  return kinds;
+}
+
+/// Whether it matters which voxels belong to which object.
+bool needsVoxelsApart(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds) {
+  return surfaces.size() > 1 &&
+         std::find(kinds.begin(), kinds.end(), GridKind::kColor) != kinds.end();
 }
 
 Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progress& progress) {
@@ -253,15 +282,15 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
 
   const Box box = boxOf(scene);
   const GridTransform transform = chooseTransform(box, scene, options);
-  const std::vector<GridKind> kinds =
-      options.grids.value_or(scene.grids.value_or(std::vector{GridKind::kDensity}));
+  const std::vector<GridKind> kinds = gridsOf(scene, options);
   const std::vector<double> areas = areasOf(scene, transform, progress);
   plan(scene, options, areas, kinds, progress);
   report.voxelSize = transform.voxelSize;
-  const std::vector<PreparedSurface> surfaces =
+  std::vector<PreparedSurface> surfaces =
       prepareObjects(scene, options, transform, box.longestSide(), kinds, budget, progress, report);
   const openvdb::MaskGrid::Ptr mask =
-      markObjects(scene, surfaces, options, transform, areas, budget, progress, report);
+      markObjects(scene, surfaces, options, transform, needsVoxelsApart(surfaces, kinds), areas,
+                  budget, progress, report);
 
   progress.begin("grids", workOfGrids(areas, kinds));
   const StageTimer timer(report.gridsSeconds);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/grid/grid_kind.h"
+#include "libvox/grid/texture_spec.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/stop_rule.h"
 #include "libvox/pipeline/polygons.h"
@@ -38,6 +39,9 @@ struct ConvertOptions : PreparationOptions {
   std::optional<StopRule> until;               ///< default: voxel
   std::optional<Voxelize> voxelize;            ///< default: auto
   Separation separation = Separation::k6;
+  /// Of all objects, instead of their own textures and colours; adds the color grid to those of the
+  /// scene.
+  std::optional<TextureSpec> texture;
   SurfaceOptions surface;
   RunOptions run;
 };
@@ -83,8 +87,8 @@ struct Conversion {
 /// cut into submeshes. The progress keeps a share for writing the grids.
 ///
 /// @throws UsageError  dim, voxel size, number of threads, stop rule, smoothing or weld tolerance
-/// is
-///   nonsense; vertex conversion is asked for where it cannot be
+///   is nonsense; vertex conversion is asked for where it cannot be; a texture is asked for without
+///   the color grid
 /// @throws InputError  the input has no extent and no voxel size is given
 /// @throws MeshError   as prepare (refine.h)
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid

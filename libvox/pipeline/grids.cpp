@@ -18,24 +18,14 @@
 namespace vox {
 namespace {
 
-/// Bytes of a tree of values with the nodes of a mask.
-template <class TreeT>
-std::uint64_t bytesOfTree(const openvdb::MaskTree& mask) {
-  using Leaf = typename TreeT::LeafNodeType;
-  using Upper = typename TreeT::RootNodeType::ChildNodeType;
-  using Lower = typename Upper::ChildNodeType;
-  const auto nodes = mask.nodeCount();  // leaves first, root last
-  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(typename TreeT::ValueType)) +
-         nodes[1] * sizeof(Lower) + nodes[2] * sizeof(Upper);
-}
-
 /// Bytes of nodes per square voxel of a surface: 1.5 leaves per 64 and 1.5 inner nodes per 16384,
 /// averaged over directions.
 template <class TreeT>
-double bytesPerArea(double valueBytes) {
+double bytesPerArea(std::size_t valueBytes) {
   using Leaf = typename TreeT::LeafNodeType;
   using Lower = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
-  return 1.5 * ((sizeof(Leaf) + Leaf::SIZE * valueBytes) / 64 + sizeof(Lower) / 16384.0);
+  const auto leafBytes = static_cast<double>(sizeof(Leaf) + Leaf::SIZE * valueBytes);
+  return 1.5 * (leafBytes / 64 + sizeof(Lower) / 16384.0);
 }
 
 double bytesOfGrids(double area, std::span<const GridKind> kinds) {
@@ -44,6 +34,8 @@ double bytesOfGrids(double area, std::span<const GridKind> kinds) {
     if (kind == GridKind::kDensity) perArea += bytesPerArea<openvdb::FloatTree>(sizeof(float));
     if (kind == GridKind::kNormal)
       perArea += bytesPerArea<openvdb::Vec3STree>(sizeof(openvdb::Vec3s));
+    if (kind == GridKind::kColor)
+      perArea += bytesPerArea<openvdb::Vec3STree>(sizeof(openvdb::Vec3f));
   }
   return area * perArea;
 }
@@ -52,7 +44,7 @@ openvdb::GridBase::Ptr makeNormals(const openvdb::MaskGrid& mask,
                                    std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
                                    Progress& progress) {
   constexpr const char* kAdvice = "leave it out, use larger voxels, or raise --max-memory";
-  budget.take(bytesOfTree<openvdb::Vec3STree>(mask.tree()), "the normal grid", kAdvice);
+  budget.take(bytesOfGrid<openvdb::Vec3STree>(mask.tree()), "the normal grid", kAdvice);
   budget.require(VoxelSums::bytesFor(mask.activeVoxelCount(), mask.tree().leafCount()),
                  "the normals", kAdvice);
   VoxelSums sums(mask.tree());
@@ -69,6 +61,7 @@ double workOfGrids(std::span<const double> areas, std::span<const GridKind> kind
   for (const GridKind kind : kinds) {
     if (kind == GridKind::kDensity) work += workOfDensity(area);
     if (kind == GridKind::kNormal) work += workOfNormals(area);
+    if (kind == GridKind::kColor) work += workOfColor(area);
   }
   return work;
 }
@@ -99,11 +92,13 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mas
     case GridKind::kMask:
       break;
     case GridKind::kDensity:
-      budget.take(bytesOfTree<openvdb::FloatTree>(mask->tree()), "the density grid",
+      budget.take(bytesOfGrid<openvdb::FloatTree>(mask->tree()), "the density grid",
                   kScatteredAdvice);
       return densityGrid(*mask);
     case GridKind::kNormal:
       return makeNormals(*mask, surfaces, budget, progress);
+    case GridKind::kColor:
+      return makeColorGrid(*mask, surfaces, budget, progress);
   }
   return mask;
 }

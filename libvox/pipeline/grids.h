@@ -4,12 +4,14 @@
 #include "libvox/grid/grid_kind.h"
 #include "libvox/grid/transform.h"
 #include "libvox/pipeline/choose.h"
+#include "libvox/pipeline/colors.h"
 #include "libvox/subdivide/level.h"
 
 #include <openvdb/openvdb.h>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -20,7 +22,20 @@ struct PreparedSurface {
   std::string name;
   SubdivisionLevel base;
   ConversionWay way;
+  std::optional<PlacedTexture> texture = {};
+  openvdb::MaskTree::Ptr voxels = {};  ///< its own; null: there was no need to tell them apart
 };
+
+/// Bytes of a tree of values with the nodes of a mask.
+template <class TreeT>
+std::uint64_t bytesOfGrid(const openvdb::MaskTree& mask) {
+  using Leaf = typename TreeT::LeafNodeType;
+  using Upper = typename TreeT::RootNodeType::ChildNodeType;
+  using Lower = typename Upper::ChildNodeType;
+  const auto nodes = mask.nodeCount();  // leaves first, root last
+  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(typename TreeT::ValueType)) +
+         nodes[1] * sizeof(Lower) + nodes[2] * sizeof(Upper);
+}
 
 /// What to do about a grid that is too large.
 inline constexpr const char* kScatteredAdvice =

@@ -24,6 +24,7 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
   if (smoothing.interpolatedVertices)
     text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
   if (options.weldTolerance) text << " weld=" << *options.weldTolerance;
+  if (options.texture) text << " texture=" << textureText(*options.texture);
   if (options.until) text << " until=" << stopRuleName(*options.until);
   if (options.voxelize) text << " voxelize=" << voxelizeName(*options.voxelize);
   return text.str();

@@ -25,6 +25,10 @@ double workOfNormals(double area) {
   return 500 * area;
 }
 
+double workOfColor(double area) {
+  return 250 * area;
+}
+
 double workOfWritingMask(double area) {
   return 8 * area;
 }
@@ -35,6 +39,10 @@ double workOfWritingDensity(double area) {
 
 double workOfWritingNormals(double area) {
   return 150 * area;
+}
+
+double workOfWritingColor(double area) {
+  return 100 * area;
 }
 
 double areaOf(const PolygonMesh& mesh, Index face) {
