@@ -165,7 +165,7 @@ std::vector<GridKind> readGrids(const SceneText& scene, const toml::node& node) 
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[convert]",
-                   {"dim", "voxel_size", "grids", "until", "weld", "strict"});
+                   {"dim", "voxel_size", "grids", "until", "voxelize", "weld", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
