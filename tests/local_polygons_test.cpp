@@ -7,11 +7,13 @@
 #include "libvox/subdivide/doo_sabin.h"
 #include "tests/shapes.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <random>
 
 using namespace vox;
@@ -165,4 +167,97 @@ TEST_CASE("polygons as fine as a rule says have no gap, thin parts with fewer ve
       saved += mesh.pointCount() < refined(base, depths, 3).pointCount();
     });
   CHECK(saved > 10);
+}
+
+namespace {
+
+/// Largest L-inf diameter of the faces.
+double largestDiameter(const PolygonMesh& mesh) {
+  double largest = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+    for (const Index a : mesh.face(f))
+      for (const Index b : mesh.face(f))
+        largest = std::max(largest, (mesh.points[a] - mesh.points[b]).lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
+/// Distance of p from a triangle, by its nearest point among plane, sides and corners.
+double distanceFrom(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const auto fromSide = [&](const Vec3d& s, const Vec3d& t) {
+    const double length = (t - s).squaredNorm();
+    const double at = length > 0 ? std::clamp((p - s).dot(t - s) / length, 0.0, 1.0) : 0;
+    return (p - s - at * (t - s)).norm();
+  };
+  const double rim = std::min({fromSide(a, b), fromSide(b, c), fromSide(c, a)});
+  const Vec3d n = (b - a).cross(c - a);
+  if (n.norm() == 0) return rim;
+  const auto inside = [&](const Vec3d& s, const Vec3d& t) {
+    return (t - s).cross(p - s).dot(n) >= 0;
+  };
+  const bool above = inside(a, b) && inside(b, c) && inside(c, a);
+  return above ? std::abs((p - a).dot(n)) / n.norm() : rim;
+}
+
+/// Largest distance of points from the faces of a mesh, cut into fans both ways round: the smaller
+/// of the two, since either may be how the faces are cut.
+double farthest(const std::vector<Vec3d>& points, const PolygonMesh& mesh) {
+  double farthest = 0;
+  for (const Vec3d& p : points) {
+    double nearest = 1e9;
+    for (Index f = 0; f < mesh.faceCount(); ++f) {
+      const auto face = mesh.face(f);
+      const std::size_t n = face.size();
+      for (std::size_t start = 0; start < std::min<std::size_t>(n, 2); ++start)
+        for (std::size_t i = 1; i + 1 < n; ++i)
+          nearest = std::min(
+              nearest, distanceFrom(p, mesh.points[face[start]], mesh.points[face[(start + i) % n]],
+                                    mesh.points[face[(start + i + 1) % n]]));
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+PolygonMesh refinedTo(const SubdivisionLevel& base, const StopRule& until) {
+  const DepthRule rule(until);
+  std::vector<VertexDepth> depths(base.mesh.cornerCount());
+  std::vector<Index> all(base.mesh.faceCount());
+  std::iota(all.begin(), all.end(), Index{0});
+  LocalPolygons(base).findDepths(all, rule, depths);
+  return refined(base, depths, 100000, &rule);
+}
+
+}  // namespace
+
+TEST_CASE("no face is larger than the rule says", "[subdivide][property]") {
+  forShapes([](SubdivisionLevel base) {
+    for (Vec3d& p : base.mesh.points) p *= 30;
+    for (const double limit : {20.0, 3.0}) {
+      CAPTURE(limit);
+      CHECK(largestDiameter(refinedTo(base, StopRule{{}, limit})) <= limit * (1 + 1e-12));
+    }
+  });
+}
+
+TEST_CASE("the polygons are as near the smooth surface as the rule says", "[subdivide][property]") {
+  double most = 0;
+  for (const PolygonMesh& mesh :
+       {test::cube(), test::tetrahedron(), test::prism(7), test::pyramid(9), test::dodecahedron(),
+        test::openFan(3, 5), test::sheet(3, 2)}) {
+    SubdivisionLevel base = prepared(mesh, BoundaryRule::kExtend);
+    for (Vec3d& p : base.mesh.points) p *= 20;
+    // The centroid of a face lies on the smooth surface.
+    const PolygonMesh deep = subdivide(base, 5).mesh;
+    std::vector<Vec3d> surface;
+    const Index step = 1 + deep.faceCount() / 400;
+    for (Index f = 0; f < deep.faceCount(); f += step)
+      if (deep.faceSize(f) == 4) surface.push_back(test::faceCentroid(deep, f));
+    for (const double limit : {1.0, 0.2}) {
+      CAPTURE(limit, mesh.faceCount());
+      const double distance = farthest(surface, refinedTo(base, StopRule{{}, {}, {}, limit}));
+      CHECK(distance <= limit);
+      most = std::max(most, distance / limit);
+    }
+  }
+  CHECK(most > 0.2);  // the bound is not idle
 }

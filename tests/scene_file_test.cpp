@@ -148,6 +148,9 @@ TEST_CASE("what a scene gets wrong is named with line and column", "[scene][erro
   checkRefused("[convert]\nuntil = 'levels=3'\n", ":2:9:", "until must be \"voxel\" or { levels");
   checkRefused("[convert]\nuntil = {}\n", ":2:9:", "until must be \"voxel\" or { levels");
   checkRefused("[convert]\nuntil = { depth = 3 }\n", ":2:11:", "unknown key 'depth' in until");
+  checkRefused("[convert]\nuntil = { angle = 181 }\n", ":2:19:", "at most 180 degrees");
+  checkRefused("[convert]\nuntil = { flatness = 0 }\n", ":2:22:", "positive number of voxels");
+  checkRefused("[convert]\nvoxelize = 'all'\n", ":2:12:", "one of auto, vertex, polygon");
   checkRefused("[convert]\nuntil = { levels = 31 }\n", ":2:20:", "between 0 and 30, not 31");
   checkRefused(object + "until = 3\n", ":4:9:", "until must be \"voxel\" or { levels");
   checkRefused("[convert]\nstrict = 1\n", ":2:10:", "strict must be true or false");

@@ -4,6 +4,7 @@
 
 #include "libvox/core/parallel.h"
 #include "libvox/localize/partition.h"
+#include "libvox/pipeline/refined_polygons.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/subdivide/local_surface.h"
 #include "libvox/subdivide/stop.h"
@@ -67,13 +68,15 @@ Slenderness slendernessOf(const PolygonMesh& mesh) {
   return slenderness;
 }
 
-bool hasSlivers(const SubdivisionLevel& base, const SurfaceOptions& options,
-                const Progress& progress) {
+bool polygonsAreFaster(const SubdivisionLevel& base, const StopRule& polygons,
+                       const SurfaceOptions& options, const Progress& progress) {
   constexpr double kSuspect = 8;  // vertices per voxel
   const Slenderness slenderness = slendernessOf(base.mesh);
   if (slenderness.vertices <= kSuspect * slenderness.voxels) return false;
-  return countVertices(base, options.submeshFaces, progress) >
-         kMostVerticesPerVoxel * slenderness.voxels;
+  const double vertices = countVertices(base, options.submeshFaces, progress);
+  if (vertices <= kMostVerticesPerVoxel * slenderness.voxels) return false;
+  return vertices > kVerticesPerPolygonVertex *
+                        planPolygons(base, polygons, options.submeshFaces, progress).vertices;
 }
 
 }  // namespace
@@ -95,9 +98,11 @@ ConversionWay chooseWay(const SubdivisionLevel& base, const StopRule& until, Vox
   if (!until.untilVoxel()) return {true, until, separation};
   if (voxelize == Voxelize::kPolygon) return {true, {.diameter = 1}, separation};
   if (voxelize == Voxelize::kVertex) return {};
-  const bool polygons = separation == Separation::k26 ||
-                        (options.localize != Localize::kOff && hasSlivers(base, options, progress));
-  if (polygons) return {true, {.flatness = kAutomaticFlatness}, Separation::k26};
+  const StopRule flat = {.flatness = kAutomaticFlatness};
+  const bool polygons =
+      separation == Separation::k26 ||
+      (options.localize != Localize::kOff && polygonsAreFaster(base, flat, options, progress));
+  if (polygons) return {true, flat, Separation::k26};
   return {};
 }
 

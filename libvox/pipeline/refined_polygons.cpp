@@ -112,12 +112,12 @@ PolygonPlan planPolygons(const SubdivisionLevel& base, const StopRule& until, In
     plan.vertices += verticesOf(depth);
     plan.levels = std::max(plan.levels, 1 + std::max<int>(depth.u, depth.v));
   }
-  requireFeasible(plan);
   return plan;
 }
 
 void makePolygons(const SubdivisionLevel& base, const PolygonPlan& plan, Progress& progress,
                   const std::function<PolygonSink&()>& sinkOfThread) {
+  requireFeasible(plan);
   tbb::enumerable_thread_specific<LocalPolygons> locals([&] { return LocalPolygons(base); });
   forEach(plan.partition.size(), 1, [&](Index s) {
     const auto faces = plan.partition.submesh(s);
@@ -133,6 +133,7 @@ void makePolygons(const SubdivisionLevel& base, const PolygonPlan& plan, Progres
 
 TriangleSoup triangleSoup(const SubdivisionLevel& base, const StopRule& until, Progress& progress) {
   const PolygonPlan plan = planPolygons(base, until, kDefaultSubmeshFaces, progress);
+  requireFeasible(plan);
   std::vector<SoupSink> parts(plan.partition.size());
   tbb::enumerable_thread_specific<LocalPolygons> locals([&] { return LocalPolygons(base); });
   forEach(plan.partition.size(), 1, [&](Index s) {

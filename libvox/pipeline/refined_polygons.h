@@ -30,7 +30,7 @@ inline constexpr double kMostRefinedVertices = 5e10;
 /// Finds the depths. Parallel; they do not depend on submeshes or threads.
 /// @param base   level 0 in index space: prepared (refine.h)
 /// @param until  with a limit: not untilVoxel(), and levels, if given, at least 1
-/// @throws LimitError  more than kMostRefinedVertices, or coordinates out of all range
+/// @throws LimitError  coordinates out of all range
 /// @throws Cancelled
 PolygonPlan planPolygons(const SubdivisionLevel& base, const StopRule& until, Index submeshFaces,
                          const Progress& progress);
@@ -39,6 +39,7 @@ PolygonPlan planPolygons(const SubdivisionLevel& base, const StopRule& until, In
 /// of large arrays as tasks. Nothing of the refined mesh stays. Credits the current stage of
 /// `progress`.
 /// @param sinkOfThread  called often; one sink per thread. Pieces come in no particular order
+/// @throws LimitError  more than kMostRefinedVertices
 /// @throws Cancelled
 void makePolygons(const SubdivisionLevel& base, const PolygonPlan& plan, Progress& progress,
                   const std::function<PolygonSink&()>& sinkOfThread);
@@ -52,7 +53,7 @@ struct TriangleSoup {
 /// A prepared surface in index space as triangles that nowhere keep farther from the smooth surface
 /// than the rule says: StopRule{.flatness = 0.1}, say. Pieces follow the order of the submeshes, so
 /// the result does not depend on threads.
-/// @throws LimitError  2^32 - 1 points or more; as planPolygons
+/// @throws LimitError  2^32 - 1 points or more; as makePolygons
 /// @throws Cancelled
 TriangleSoup triangleSoup(const SubdivisionLevel& base, const StopRule& until, Progress& progress);
 
