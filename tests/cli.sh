@@ -125,7 +125,7 @@ expect 5 'regular' convert good.obj -o fifo.vdb --force
 # What works.
 expect 0 '' --help
 expect 0 '' --version
-for command in convert subdivide info; do
+for command in convert subdivide info diff; do
   expect 0 '' $command --help
 done
 expect 0 'active voxels' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask
@@ -269,6 +269,38 @@ grep -q 'after repair: 4 vertices' stdout || fail "info --weld: $(cat stdout)"
 expect 2 'weld tolerance' info near.obj --weld -1
 expect 0 '' info nothing.obj
 grep -q 'nothing is left' stdout || fail "info of nothing: $(cat stdout)"
+
+# Comparison: 0 the same, 1 different; data on stdout.
+"$vox" convert "$scenes/torus.toml" -o torus.vdb --dim 40 --grids density,mask -q
+"$vox" convert "$scenes/torus.toml" -o torus41.vdb --dim 41 --grids mask -q
+expect 0 '' diff torus.vdb torus.vdb
+grep -qE '^mask: same, [0-9]+ active voxels$' stdout || fail "diff of the same: $(cat stdout)"
+[ -s stderr ] && fail "diff says something on stderr"
+"$vox" diff torus.vdb torus41.vdb >stdout
+[ $? -eq 1 ] || fail "diff of different files: exit code"
+grep -q '^density: only in A$' stdout || fail "diff: $(cat stdout)"
+grep -q '^mask: differs$' stdout || fail "diff: $(cat stdout)"
+"$vox" diff torus.vdb torus41.vdb --quiet >stdout
+[ $? -eq 1 ] && [ ! -s stdout ] || fail "diff --quiet"
+"$vox" diff torus.vdb torus41.vdb --json --grids mask -o difference.vdb >stdout
+[ $? -eq 1 ] || fail "diff --json: exit code"
+python3 - stdout <<'PY' || fail "diff --json"
+import json, sys
+diff = json.load(open(sys.argv[1]))
+assert diff["same"] is False and [g["name"] for g in diff["grids"]] == ["mask"]
+grid = diff["grids"][0]
+assert [p["what"] for p in grid["properties"]] == ["transform"]
+assert grid["topology"]["only_a"] > 0 and grid["topology"]["distance"] >= 1
+assert grid["values"] is None
+PY
+expect 0 '' info difference.vdb
+grep -q 'grid mask_only_a' stdout || fail "diff -o: $(cat stdout)"
+expect 5 'difference.vdb: exists' diff torus.vdb torus41.vdb -o difference.vdb
+expect 2 'is the input' diff torus.vdb torus41.vdb -o torus.vdb --force
+expect 2 'must end in .vdb' diff torus.vdb torus41.vdb -o out.png
+expect 2 'tolerance' diff torus.vdb torus.vdb --tolerance -1
+expect 3 'nowhere.vdb: no such file' diff torus.vdb nowhere.vdb
+expect 3 "neither file has a grid 'fog'" diff torus.vdb torus.vdb --grids fog
 
 # What needs care at the edges.
 expect 2 'out.obj: .*must end in .vdb' convert good.obj -o out.obj
