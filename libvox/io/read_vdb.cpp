@@ -6,34 +6,59 @@
 #include "libvox/io/input_file.h"
 #include "libvox/io/write_vdb.h"
 
+#include <openvdb/io/Stream.h>
+
+#include <cstdint>
 #include <fstream>
+#include <map>
+#include <new>
 
 namespace vox {
 namespace {
 
-/// A file of ours names the hash of its content; OpenVDB itself trusts what it reads.
-void requireIntact(const std::filesystem::path& file) {
+/// Whether a file is ours and as we wrote it.
+/// @throws InputError  it is ours, but damaged: it names the hash of its content
+bool isTrusted(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string() + ": cannot be opened; check its permissions");
-  if (vdbContent(stream) == VdbContent::kDamaged)
+  const VdbContent content = vdbContent(stream);
+  if (content == VdbContent::kDamaged)
     throw InputError(file.string() + ": is damaged: its content does not match its hash");
+  return content == VdbContent::kIntact;
 }
 
-/// Opens a file for `work`, and says of any failure in there what it is about.
-template <class Work>
-void withFile(const std::filesystem::path& file, Work&& work) {
+using Visit = std::function<void(const openvdb::GridBase::Ptr&)>;
+
+/// Values of leaves are read when they are looked at. OpenVDB trusts what it reads and may abort
+/// on a damaged file.
+openvdb::MetaMap readOnDemand(const std::filesystem::path& file, const Visit& visit) {
+  openvdb::io::File vdb(file.string());
+  vdb.open(/*delayLoad=*/true);
+  for (auto name = vdb.beginName(); name != vdb.endName(); ++name) visit(vdb.readGrid(*name));
+  return *vdb.getMetadata();
+}
+
+/// The whole file, through a stream that fails where it ends: OpenVDB itself would go on.
+openvdb::MetaMap readWhole(const std::filesystem::path& file, const Visit& visit) {
+  std::ifstream stream(file, std::ios::binary);
+  stream.exceptions(std::ios::badbit | std::ios::failbit);
+  openvdb::io::Stream vdb(stream, /*delayLoad=*/false);
+  for (const auto& grid : *vdb.getGrids()) visit(grid);
+  return *vdb.getMetadata();
+}
+
+openvdb::MetaMap read(const std::filesystem::path& file, const Visit& visit) {
   requireInputFile(file);
   openvdb::initialize();
   openvdb::logging::setLevel(openvdb::logging::Level::Fatal);
-  requireIntact(file);
+  constexpr std::uintmax_t kMostWhole = std::uintmax_t{256} << 20U;
+  const bool onDemand = isTrusted(file) || std::filesystem::file_size(file) > kMostWhole;
   try {
-    openvdb::io::File vdb(file.string());
-    vdb.open(/*delayLoad=*/true);
-    work(vdb);
+    return onDemand ? readOnDemand(file, visit) : readWhole(file, visit);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw;
+    throw InputError(file.string() + ": is damaged, or needs more memory than there is");
   } catch (const std::exception& wrong) {
     constexpr std::size_t kMost = 200;  // damaged files may quote megabytes of themselves
     throw InputError(file.string() +
@@ -41,24 +66,33 @@ void withFile(const std::filesystem::path& file, Work&& work) {
   }
 }
 
+/// Gives each grid a name of its own.
+class Namer {
+ public:
+  NamedGrid named(const openvdb::GridBase::Ptr& grid) {
+    const std::string name = grid->getName();
+    const int before = seen_[name]++;
+    return {before == 0 ? name : name + "[" + std::to_string(before) + "]", grid};
+  }
+
+ private:
+  std::map<std::string, int> seen_;
+};
+
 }  // namespace
 
 VdbFile readVdb(const std::filesystem::path& file) {
-  VdbFile read;
-  withFile(file, [&](openvdb::io::File& vdb) {
-    read.metadata = *vdb.getMetadata();
-    for (auto name = vdb.beginName(); name != vdb.endName(); ++name)
-      read.grids.push_back({*name, vdb.readGrid(*name)});
-  });
-  return read;
+  VdbFile all;
+  Namer namer;
+  all.metadata = read(
+      file, [&](const openvdb::GridBase::Ptr& grid) { all.grids.push_back(namer.named(grid)); });
+  return all;
 }
 
 void forEachGrid(const std::filesystem::path& file,
                  const std::function<void(const NamedGrid&)>& visit) {
-  withFile(file, [&](openvdb::io::File& vdb) {
-    for (auto name = vdb.beginName(); name != vdb.endName(); ++name)
-      visit({*name, vdb.readGrid(*name)});
-  });
+  Namer namer;
+  read(file, [&](const openvdb::GridBase::Ptr& grid) { visit(namer.named(grid)); });
 }
 
 }  // namespace vox

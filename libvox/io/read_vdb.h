@@ -17,16 +17,17 @@ struct NamedGrid {
 };
 
 struct VdbFile {
-  std::vector<NamedGrid> grids;  ///< in file order; values of leaves are loaded when looked at
-  openvdb::MetaMap metadata;     ///< of the file
+  std::vector<NamedGrid> grids;
+  openvdb::MetaMap metadata;  ///< of the file
 };
 
-/// Opens a .vdb file of any program.
+/// Opens a .vdb file of any program. Values are loaded on demand from files of ours, whose hash
+/// shows them to be whole, and from large ones; of others all is read.
 /// @throws InputError  missing, not a .vdb file that OpenVDB can read, or one of ours that is
 /// damaged
 VdbFile readVdb(const std::filesystem::path& file);
 
-/// Reads one grid after the other, so that only one is in memory at a time.
+/// Looks at one grid after the other; those loaded on demand are in memory one at a time.
 /// @throws InputError  as readVdb
 void forEachGrid(const std::filesystem::path& file,
                  const std::function<void(const NamedGrid&)>& visit);
