@@ -125,7 +125,7 @@ expect 5 'regular' convert good.obj -o fifo.vdb --force
 # What works.
 expect 0 '' --help
 expect 0 '' --version
-for command in convert subdivide info diff; do
+for command in convert subdivide info diff check; do
   expect 0 '' $command --help
 done
 expect 0 'active voxels' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask
@@ -301,6 +301,37 @@ expect 2 'must end in .vdb' diff torus.vdb torus41.vdb -o out.png
 expect 2 'tolerance' diff torus.vdb torus.vdb --tolerance -1
 expect 3 'nowhere.vdb: no such file' diff torus.vdb nowhere.vdb
 expect 3 "neither file has a grid 'fog'" diff torus.vdb torus.vdb --grids fog
+
+# Checks: 0 no faults, 1 some. The options are those of the file.
+expect 0 '' check torus.vdb
+grep -qE '^mask: [0-9]+ active voxels in 1 component, around 1 enclosed space' stdout || fail "check: $(cat stdout)"
+grep -q '^no faults$' stdout || fail "check: $(cat stdout)"
+expect 0 '' check torus.vdb --mesh "$scenes/torus.toml"
+grep -q '^torus: no tunnels$' stdout || fail "check --mesh: $(cat stdout)"
+"$vox" check torus41.vdb >stdout
+[ $? -eq 1 ] && grep -q '^fault no-density: ' stdout || fail "check of a mask alone: $(cat stdout)"
+expect 0 '' check torus41.vdb --ignore no-density
+# The surface through the vertices is another one, as is a larger torus.
+"$vox" check torus.vdb --mesh "$scenes/torus.toml" --interpolate both >stdout
+[ $? -eq 1 ] && grep -q '^fault tunnel: mask: torus: ' stdout || fail "check of another surface: $(cat stdout)"
+"$vox" convert "$scenes/torus.toml" -o through.vdb --dim 40 --interpolate both -q --verify
+expect 0 '' check through.vdb --mesh "$scenes/torus.toml"
+"$vox" convert "$scenes/toy_jack.toml" -o levels.vdb --dim 40 --until levels=2 --separating 26 -q --verify
+expect 0 '' check levels.vdb --mesh "$scenes/toy_jack.toml"
+"$vox" check levels.vdb --mesh "$scenes/toy_jack.toml" --until levels=0 --json >stdout
+[ $? -eq 1 ] || fail "check of other polygons"
+python3 - stdout <<'PY' || fail "check --json"
+import json, sys
+check = json.load(open(sys.argv[1]))
+assert check["ok"] is False and check["objects"][0]["tunnels"] > 0
+assert [f["fault"] for f in check["faults"]] == ["tunnel"]
+assert check["components"]["count"] == 1
+PY
+expect 2 "unknown fault 'holes'" check torus.vdb --ignore holes
+expect 3 "has no grid 'fog'" check torus.vdb --grid fog
+expect 3 'nowhere.vdb: no such file' check nowhere.vdb
+expect 4 'needs about' check torus.vdb --mesh "$scenes/torus.toml" --max-memory 1M
+expect 0 'active voxels' convert "$scenes/gallery.toml" -o verified.vdb --dim 100 --verify
 
 # What needs care at the edges.
 expect 2 'out.obj: .*must end in .vdb' convert good.obj -o out.obj

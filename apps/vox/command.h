@@ -14,5 +14,6 @@ Action addConvert(CLI::App& app);
 Action addSubdivide(CLI::App& app);
 Action addInfo(CLI::App& app);
 Action addDiff(CLI::App& app);
+Action addCheck(CLI::App& app);
 
 }  // namespace vox::app

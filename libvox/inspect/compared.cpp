@@ -10,19 +10,6 @@
 
 namespace vox {
 
-void refuseType(const openvdb::GridBase& grid) {
-  throw InputError(grid.getName() + ": grids of type " + grid.type() + " cannot be compared");
-}
-
-openvdb::MaskTree::Ptr topologyOf(const openvdb::GridBase& grid) {
-  openvdb::MaskTree::Ptr mask;
-  const auto copy = [&](const auto& typed) {
-    mask = std::make_shared<openvdb::MaskTree>(typed.tree(), false, true, openvdb::TopologyCopy());
-  };
-  if (!grid.apply<ComparedTypes>(copy)) refuseType(grid);
-  return mask;
-}
-
 Tolerance::Tolerance(const DiffOptions& options)
     : absolute(options.absoluteTolerance), relative(options.relativeTolerance) {
   for (const double tolerance : {absolute, relative})

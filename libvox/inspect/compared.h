@@ -2,6 +2,7 @@
 
 #include "libvox/inspect/diff.h"
 #include "libvox/inspect/leaf_values.h"
+#include "libvox/inspect/topology.h"
 #include "libvox/inspect/tree_pair.h"
 #include "libvox/io/read_vdb.h"
 
@@ -16,18 +17,6 @@
 #include <type_traits>
 
 namespace vox {
-
-/// Types of grids that can be compared: all of OpenVDB's own but points.
-using ComparedTypes = openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid,
-                                        openvdb::Int64Grid, openvdb::Vec3IGrid, openvdb::Vec3SGrid,
-                                        openvdb::Vec3DGrid, openvdb::BoolGrid, openvdb::MaskGrid>;
-
-/// @throws InputError  always: the grid is of another type
-[[noreturn]] void refuseType(const openvdb::GridBase& grid);
-
-/// The active voxels of a grid of any of these types.
-/// @throws InputError  another type
-openvdb::MaskTree::Ptr topologyOf(const openvdb::GridBase& grid);
 
 /// Calls visit(name, a, b) for each name in either file that is to be compared, in order of names;
 /// of the two grids one may be null.
