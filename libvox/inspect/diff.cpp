@@ -226,7 +226,7 @@ openvdb::Mat4d matrixOf(const openvdb::math::Transform& transform) {
 
 std::string transformText(const openvdb::math::Transform& transform) {
   std::ostringstream text;
-  text.precision(17);
+  text.precision(15);
   if (!transform.isLinear()) return transform.mapType();
   const openvdb::Mat4d matrix = matrixOf(transform);
   const bool turned = !openvdb::math::isDiagonal(matrix.getMat3());
