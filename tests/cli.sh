@@ -125,7 +125,7 @@ expect 5 'regular' convert good.obj -o fifo.vdb --force
 # What works.
 expect 0 '' --help
 expect 0 '' --version
-for command in convert subdivide info; do
+for command in convert subdivide info diff check; do
   expect 0 '' $command --help
 done
 expect 0 'active voxels' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask
@@ -306,6 +306,69 @@ grep -q 'after repair: 4 vertices' stdout || fail "info --weld: $(cat stdout)"
 expect 2 'weld tolerance' info near.obj --weld -1
 expect 0 '' info nothing.obj
 grep -q 'nothing is left' stdout || fail "info of nothing: $(cat stdout)"
+
+# Comparison: 0 the same, 1 different; data on stdout.
+"$vox" convert "$scenes/torus.toml" -o torus.vdb --dim 40 --grids density,mask -q
+"$vox" convert "$scenes/torus.toml" -o torus41.vdb --dim 41 --grids mask -q
+expect 0 '' diff torus.vdb torus.vdb
+grep -qE '^mask: same, [0-9]+ active voxels$' stdout || fail "diff of the same: $(cat stdout)"
+[ -s stderr ] && fail "diff says something on stderr"
+"$vox" diff torus.vdb torus41.vdb >stdout
+[ $? -eq 1 ] || fail "diff of different files: exit code"
+grep -q '^density: only in A$' stdout || fail "diff: $(cat stdout)"
+grep -q '^mask: differs$' stdout || fail "diff: $(cat stdout)"
+"$vox" diff torus.vdb torus41.vdb --quiet >stdout
+[ $? -eq 1 ] && [ ! -s stdout ] || fail "diff --quiet"
+"$vox" diff torus.vdb torus41.vdb --json --grids mask -o difference.vdb >stdout
+[ $? -eq 1 ] || fail "diff --json: exit code"
+python3 - stdout <<'PY' || fail "diff --json"
+import json, sys
+diff = json.load(open(sys.argv[1]))
+assert diff["same"] is False and [g["name"] for g in diff["grids"]] == ["mask"]
+grid = diff["grids"][0]
+assert [p["what"] for p in grid["properties"]] == ["transform"]
+assert grid["topology"]["only_a"] > 0 and grid["topology"]["distance"] >= 1
+assert grid["values"] is None
+PY
+expect 0 '' info difference.vdb
+grep -q 'grid mask_only_a' stdout || fail "diff -o: $(cat stdout)"
+expect 5 'difference.vdb: exists' diff torus.vdb torus41.vdb -o difference.vdb
+expect 2 'is the input' diff torus.vdb torus41.vdb -o torus.vdb --force
+expect 2 'must end in .vdb' diff torus.vdb torus41.vdb -o out.png
+expect 2 'tolerance' diff torus.vdb torus.vdb --tolerance -1
+expect 3 'nowhere.vdb: no such file' diff torus.vdb nowhere.vdb
+expect 3 "neither file has a grid 'fog'" diff torus.vdb torus.vdb --grids fog
+
+# Checks: 0 no faults, 1 some. The options are those of the file.
+expect 0 '' check torus.vdb
+grep -qE '^mask: [0-9]+ active voxels in 1 component, around 1 enclosed space' stdout || fail "check: $(cat stdout)"
+grep -q '^no faults$' stdout || fail "check: $(cat stdout)"
+expect 0 '' check torus.vdb --mesh "$scenes/torus.toml"
+grep -q '^torus: no tunnels$' stdout || fail "check --mesh: $(cat stdout)"
+"$vox" check torus41.vdb >stdout
+[ $? -eq 1 ] && grep -q '^fault no-density: ' stdout || fail "check of a mask alone: $(cat stdout)"
+expect 0 '' check torus41.vdb --ignore no-density
+# The surface through the vertices is another one, as is a larger torus.
+"$vox" check torus.vdb --mesh "$scenes/torus.toml" --interpolate both >stdout
+[ $? -eq 1 ] && grep -q '^fault tunnel: mask: torus: ' stdout || fail "check of another surface: $(cat stdout)"
+"$vox" convert "$scenes/torus.toml" -o through.vdb --dim 40 --interpolate both -q --verify
+expect 0 '' check through.vdb --mesh "$scenes/torus.toml"
+"$vox" convert "$scenes/toy_jack.toml" -o levels.vdb --dim 40 --until levels=2 --separating 26 -q --verify
+expect 0 '' check levels.vdb --mesh "$scenes/toy_jack.toml"
+"$vox" check levels.vdb --mesh "$scenes/toy_jack.toml" --until levels=0 --json >stdout
+[ $? -eq 1 ] || fail "check of other polygons"
+python3 - stdout <<'PY' || fail "check --json"
+import json, sys
+check = json.load(open(sys.argv[1]))
+assert check["ok"] is False and check["objects"][0]["tunnels"] > 0
+assert [f["fault"] for f in check["faults"]] == ["tunnel"]
+assert check["components"]["count"] == 1
+PY
+expect 2 "unknown fault 'holes'" check torus.vdb --ignore holes
+expect 3 "has no grid 'fog'" check torus.vdb --grid fog
+expect 3 'nowhere.vdb: no such file' check nowhere.vdb
+expect 4 'needs about' check torus.vdb --mesh "$scenes/torus.toml" --max-memory 1M
+expect 0 'active voxels' convert "$scenes/gallery.toml" -o verified.vdb --dim 100 --verify
 
 # What needs care at the edges.
 expect 2 'out.obj: .*must end in .vdb' convert good.obj -o out.obj

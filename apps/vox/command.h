@@ -13,5 +13,7 @@ using Action = std::function<int()>;
 Action addConvert(CLI::App& app);
 Action addSubdivide(CLI::App& app);
 Action addInfo(CLI::App& app);
+Action addDiff(CLI::App& app);
+Action addCheck(CLI::App& app);
 
 }  // namespace vox::app

@@ -7,6 +7,7 @@
 #include "apps/vox/interrupt.h"
 #include "apps/vox/options.h"
 #include "apps/vox/progress_bar.h"
+#include "apps/vox/verify.h"
 #include "libvox/core/error.h"
 #include "libvox/core/stopwatch.h"
 #include "libvox/io/atomic_file.h"
@@ -32,6 +33,7 @@ struct Options {
   std::string grids;
   std::string texture;
   std::string report;
+  bool verify = false;
   CommonOptions common;
 };
 
@@ -113,6 +115,7 @@ int run(const Options& options) {
   {
     const CancelOnSignal cancelOnSignal(progress);
     conversion = convert(scene, convertOptions);
+    if (options.verify) verify(conversion, scene, convertOptions);
     const Stopwatch writing;
     write(options, conversion, progress);
     writeSeconds = writing.seconds();
@@ -162,6 +165,11 @@ Action addConvert(CLI::App& app) {
       ->add_option("--report", options->report,
                    "Write times, counts and memory of each stage and object to a file, as JSON")
       ->type_name("FILE.json")
+      ->group("Output");
+  command
+      ->add_flag("--verify", options->verify,
+                 "Check the voxels against the surface, as vox check --mesh does, before the file "
+                 "is written; exit code 1 if they fail")
       ->group("Output");
   addCommonOptions(*command, options->common);
   return [options] { return run(*options); };

@@ -44,20 +44,23 @@ std::uint64_t parseBytes(const std::string& text) {
 
 }  // namespace
 
-void addCommonOptions(CLI::App& command, CommonOptions& common) {
+void addRunOptions(CLI::App& command, RunOptions& run) {
   constexpr int kMostThreads = 1024;
-  command.add_option("--threads", common.run.threads, "Threads to use (default: all processors)")
+  command.add_option("--threads", run.threads, "Threads to use (default: all processors)")
       ->check(CLI::Range(1, kMostThreads))
       ->type_name("N")
       ->group("Run");
   command
       .add_option_function<std::string>(
-          "--max-memory",
-          [&common](const std::string& text) { common.run.maxMemory = parseBytes(text); },
+          "--max-memory", [&run](const std::string& text) { run.maxMemory = parseBytes(text); },
           "Memory for meshes and grids, such as 512M or 8G (default: three quarters of what is "
           "available)")
       ->type_name("SIZE")
       ->group("Run");
+}
+
+void addCommonOptions(CLI::App& command, CommonOptions& common) {
+  addRunOptions(command, common.run);
   command.add_flag("-f,--force", common.force, "Overwrite an existing output file")->group("Run");
   command.add_flag("-q,--quiet", common.quiet, "Print errors only")->group("Run");
   command.add_flag("-v,--verbose", common.verbose, "Print what was done to each object, and times")

@@ -26,6 +26,9 @@ struct CommonOptions {
 };
 void addCommonOptions(CLI::App& command, CommonOptions& common);
 
+/// --threads and --max-memory, of the common options.
+void addRunOptions(CLI::App& command, RunOptions& run);
+
 /// --dim and --voxel-size.
 struct ResolutionOptions {
   std::optional<int> dim;

@@ -1,0 +1,281 @@
+// vox check: whether a .vdb file is what it should be.
+
+#include "apps/vox/command.h"
+#include "apps/vox/options.h"
+#include "apps/vox/verify.h"
+#include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
+#include "libvox/inspect/components.h"
+#include "libvox/inspect/lint.h"
+#include "libvox/inspect/topology.h"
+#include "libvox/io/read_vdb.h"
+
+#include <nlohmann/json.hpp>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+namespace vox::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kFaulty = 1;
+constexpr const char* kLeak = "leak";
+constexpr const char* kTunnel = "tunnel";
+
+struct Options {
+  std::string file;
+  std::string mesh;
+  std::string grid;
+  std::string ignore;
+  SmoothingArguments smoothing;
+  std::string until;
+  std::optional<double> weldTolerance;
+  RunOptions run;
+  bool quiet = false;
+  bool json = false;
+};
+
+/// What is found.
+struct Check {
+  std::string grid;  ///< whose voxels are looked at; "" for none
+  std::uint64_t activeVoxels = 0;
+  std::vector<Component> components;
+  std::vector<Component> enclosed;
+  std::vector<ObjectCheck> objects;
+  std::vector<LintFinding> findings;
+};
+
+std::vector<std::string> listOf(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream list(text);
+  for (std::string word; std::getline(list, word, ',');) words.push_back(word);
+  return words;
+}
+
+std::vector<std::string> ignoredCodes(const Options& options) {
+  std::vector<std::string> known = {kLeak, kTunnel};
+  for (const LintRule& rule : lintRules()) known.emplace_back(rule.code);
+  const std::vector<std::string> codes = listOf(options.ignore);
+  for (const std::string& code : codes)
+    if (std::find(known.begin(), known.end(), code) == known.end()) {
+      std::string all;
+      for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+      throw UsageError("--ignore: unknown fault '" + code + "'; known are " + all);
+    }
+  return codes;
+}
+
+/// The grid whose voxels are the surface; null if there is none and none is asked for.
+openvdb::GridBase::Ptr chooseGrid(const VdbFile& file, const Options& options) {
+  const auto named = [&](const std::string& name) -> openvdb::GridBase::Ptr {
+    for (const NamedGrid& grid : file.grids)
+      if (grid.name == name) return grid.grid;
+    return nullptr;
+  };
+  if (!options.grid.empty()) {
+    if (const auto grid = named(options.grid)) return grid;
+    throw InputError(options.file + ": has no grid '" + options.grid + "'");
+  }
+  for (const char* name : {"mask", "density"})
+    if (const auto grid = named(name)) return grid;
+  if (!options.mesh.empty())
+    throw UsageError(options.file + ": has neither mask nor density; say --grid NAME");
+  return nullptr;
+}
+
+std::string metadataOf(const openvdb::GridBase& grid, const std::string& key) {
+  const auto value = grid[key];
+  return value ? value->str() : std::string();
+}
+
+/// What the file says of how it was made, as far as the command line says nothing.
+/// @throws UsageError  it says there were files that it does not hold
+ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const Options& options) {
+  ConvertOptions made;
+  made.smoothing = parseSmoothing(options.smoothing);
+  made.weldTolerance = options.weldTolerance;
+  if (!options.until.empty()) made.until = parseUntil({options.until, {}});
+  std::istringstream words(metadataOf(grid, "vox_options"));
+  for (std::string word; words >> word;) {
+    const std::size_t equals = std::min(word.find('='), word.size() - 1);
+    const std::string key = word.substr(0, equals);
+    const std::string value = word.substr(equals + 1);
+    if (key == "boundary" && !made.smoothing.boundary)
+      made.smoothing.boundary = boundaryRuleNamed(value);
+    if (key == "interpolate" && !made.smoothing.interpolate)
+      made.smoothing.interpolate = interpolateNamed(value);
+    if (key == "weld" && !made.weldTolerance) made.weldTolerance = std::stod(value);
+    if (key == "until" && !made.until) made.until = stopRuleNamed(value);
+    if (key == "interpolated-vertices" && !made.smoothing.interpolatedVertices)
+      throw UsageError(options.file +
+                       ": was made with --interpolate-vertices; give the same file here");
+  }
+  if (metadataOf(grid, "vox_guarantee") == "26-separating") made.separation = Separation::k26;
+  made.run = options.run;
+  return made;
+}
+
+void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
+               const Options& options, Check& check) {
+  if (!grid.transform().isLinear() || !grid.hasUniformVoxels())
+    throw InputError(options.file + ": a mesh can be held against voxels that are cubes only");
+  ConvertOptions made = optionsOfFile(grid, options);
+  made.voxelSize = grid.voxelSize().x();
+  check.objects = checkObjects(voxels, readScene(options.mesh), made);
+  for (const ObjectCheck& object : check.objects)
+    if (object.separation.tunnels > 0)
+      check.findings.push_back({kTunnel, check.grid,
+                                object.name + ": " + separationText(object.separation) +
+                                    ": the voxels do not separate the sides of the surface"});
+}
+
+void checkLeaks(const openvdb::MaskTree& voxels, Check& check) {
+  constexpr std::uint64_t kLeastVoxels = 200;
+  for (const Component& space : leakingSpaces(voxels, kLeastVoxels)) {
+    const auto& [x, y, z] = space.first;
+    std::ostringstream text;
+    text << "a space of " << space.voxels << " voxels at (" << x << ' ' << y << ' ' << z
+         << ") is enclosed but for a hole of one or two voxels";
+    check.findings.push_back({kLeak, check.grid, text.str()});
+  }
+}
+
+Check checkFile(const Options& options) {
+  const std::vector<std::string> ignored = ignoredCodes(options);
+  Check check;
+  check.findings = lintVdb(options.file);
+  const VdbFile file = readVdb(options.file);
+  if (const auto grid = chooseGrid(file, options)) {
+    const openvdb::MaskTree::Ptr voxels = topologyOf(*grid);
+    check.grid = grid->getName();
+    check.activeVoxels = grid->activeVoxelCount();
+    check.components = activeComponents(*voxels);
+    check.enclosed = Cavities(*voxels).enclosed();
+    if (options.mesh.empty())
+      checkLeaks(*voxels, check);
+    else
+      checkMesh(*grid, *voxels, options, check);
+  }
+  std::erase_if(check.findings, [&](const LintFinding& finding) {
+    return std::find(ignored.begin(), ignored.end(), finding.code) != ignored.end();
+  });
+  return check;
+}
+
+Json toJson(const std::vector<Component>& components) {
+  constexpr std::size_t kMost = 100;
+  Json json = {{"count", components.size()}, {"first", Json::array()}};
+  for (std::size_t i = 0; i < std::min(kMost, components.size()); ++i)
+    json["first"].push_back({{"voxels", components[i].voxels}, {"at", components[i].first}});
+  return json;
+}
+
+Json toJson(const Options& options, const Check& check) {
+  Json json = {{"file", options.file},
+               {"ok", check.findings.empty()},
+               {"grid", check.grid},
+               {"active_voxels", check.activeVoxels},
+               {"components", toJson(check.components)},
+               {"enclosed", toJson(check.enclosed)},
+               {"objects", Json::array()},
+               {"faults", Json::array()}};
+  for (const ObjectCheck& object : check.objects) {
+    const auto& first = object.separation.first;
+    json["objects"].push_back({{"name", object.name},
+                               {"tunnels", object.separation.tunnels},
+                               {"first", first ? Json(*first) : Json()}});
+  }
+  for (const LintFinding& finding : check.findings)
+    json["faults"].push_back(
+        {{"fault", finding.code}, {"grid", finding.grid}, {"message", finding.message}});
+  return json;
+}
+
+std::string counted(std::uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void print(const Options& options, const Check& check) {
+  if (!check.grid.empty()) {
+    std::uint64_t within = 0;
+    for (const Component& space : check.enclosed) within += space.voxels;
+    std::cout << onOneLine(check.grid) << ": " << counted(check.activeVoxels, "active voxel")
+              << " in " << counted(check.components.size(), "component") << ", around "
+              << counted(check.enclosed.size(), "enclosed space");
+    if (within > 0) std::cout << " of " << counted(within, "voxel");
+    std::cout << '\n';
+  }
+  for (const ObjectCheck& object : check.objects)
+    std::cout << onOneLine(object.name) << ": " << separationText(object.separation) << '\n';
+  for (const LintFinding& finding : check.findings)
+    std::cout << "fault " << finding.code << ": "
+              << onOneLine(finding.grid.empty() ? options.file : finding.grid) << ": "
+              << onOneLine(finding.message) << '\n';
+  std::cout << (check.findings.empty() ? "no faults" : counted(check.findings.size(), "fault"))
+            << '\n';
+}
+
+int run(const Options& options) {
+  const Check check = onThreads(options.run.threads, [&] { return checkFile(options); });
+  if (options.json)
+    std::cout << toJson(options, check).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  else if (!options.quiet)
+    print(options, check);
+  return check.findings.empty() ? 0 : kFaulty;
+}
+
+std::string footer() {
+  std::string text = "Exit code 0: no faults; 1: some. Faults that are looked for:\n";
+  const auto line = [&](const std::string& code, const std::string& what) {
+    constexpr std::size_t kWidth = 14;
+    text += "  " + code + std::string(kWidth - std::min(kWidth, code.size()), ' ') + what + '\n';
+  };
+  line(kTunnel, "voxels that do not separate the sides of the surface of --mesh");
+  line(kLeak, "without --mesh: a space that one or two voxels more would enclose");
+  for (const LintRule& rule : lintRules()) line(rule.code, rule.what);
+  return text;
+}
+
+}  // namespace
+
+Action addCheck(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "check", "Look for faults in a .vdb file: tunnels, leaks, what viewers will not show");
+  const auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->file, "OpenVDB file (.vdb) of any program")->required();
+  command
+      ->add_option("--mesh", options->mesh,
+                   "Scene or mesh the file was made from: its surface must have no tunnels")
+      ->type_name("INPUT")
+      ->group("Surface");
+  command
+      ->add_option("--grid", options->grid,
+                   "Grid whose active voxels are the surface (default: mask, or density)")
+      ->type_name("NAME")
+      ->group("Surface");
+  addSmoothingOptions(*command, options->smoothing);
+  command
+      ->add_option("--until", options->until,
+                   "As the file was made; this and the other options of vox convert are taken from "
+                   "its metadata where they are not given")
+      ->type_name("voxel|levels=K")
+      ->group("Surface");
+  addWeldOption(*command, options->weldTolerance);
+  command
+      ->add_option("--ignore", options->ignore, "Faults that do not count, with commas: see below")
+      ->type_name("LIST")
+      ->group("Output");
+  command->add_flag("--json", options->json, "Print JSON")->group("Output");
+  command->add_flag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
+      ->group("Output");
+  addRunOptions(*command, options->run);
+  command->footer(footer());
+  return [options] { return run(*options); };
+}
+
+}  // namespace vox::app

@@ -1,0 +1,207 @@
+// vox diff: what differs between two .vdb files.
+
+#include "libvox/inspect/diff.h"
+
+#include "apps/vox/command.h"
+#include "apps/vox/options.h"
+#include "libvox/core/error.h"
+#include "libvox/io/atomic_file.h"
+#include "libvox/io/input_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+namespace vox::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kDifferent = 1;
+
+struct Options {
+  std::string a, b;
+  DiffOptions diff;
+  std::string grids;
+  bool noMetadata = false;
+  std::string output;
+  bool force = false;
+  bool quiet = false;
+  bool json = false;
+};
+
+template <class T>
+Json orNull(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json toJson(const std::vector<TextDiff>& texts) {
+  Json json = Json::array();
+  for (const TextDiff& text : texts)
+    json.push_back({{"what", text.what}, {"a", text.a}, {"b", text.b}});
+  return json;
+}
+
+Json toJson(const TopologyDiff& topology) {
+  return {{"active", topology.active},
+          {"only_a", topology.onlyA},
+          {"only_b", topology.onlyB},
+          {"first", orNull(topology.first)},
+          {"distance", topology.distance}};  // infinity is null in JSON
+}
+
+Json toJson(const ValueDiff& values) {
+  return {{"compared", values.compared},
+          {"differing", values.differing},
+          {"first", orNull(values.first)},
+          {"largest", values.largest},
+          {"rms", values.rms},
+          {"inactive_differing", values.inactiveDiffering}};
+}
+
+Json toJson(const GridDiff& grid) {
+  return {{"name", grid.name},
+          {"same", grid.same()},
+          {"in_a", grid.inA},
+          {"in_b", grid.inB},
+          {"properties", toJson(grid.properties)},
+          {"metadata", toJson(grid.metadata)},
+          {"topology", toJson(grid.topology)},
+          {"values", grid.values ? toJson(*grid.values) : Json()}};
+}
+
+std::string counted(std::uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string at(const std::optional<VoxelIndex>& voxel) {
+  if (!voxel) return {};
+  const auto& [x, y, z] = *voxel;
+  return ", first (" + std::to_string(x) + ' ' + std::to_string(y) + ' ' + std::to_string(z) + ')';
+}
+
+void print(const std::vector<TextDiff>& texts, const std::string& prefix) {
+  const auto quoted = [](const std::string& text) {
+    return text.empty() ? std::string("nothing") : "'" + onOneLine(text) + "'";
+  };
+  for (const TextDiff& text : texts)
+    std::cout << "  " << prefix << onOneLine(text.what) << ": " << quoted(text.a) << " in A, "
+              << quoted(text.b) << " in B\n";
+}
+
+void print(const TopologyDiff& topology) {
+  if (topology.same()) return;
+  std::cout << "  topology: " << counted(topology.onlyA, "voxel") << " only in A, "
+            << topology.onlyB << " only in B" << at(topology.first) << "; up to "
+            << topology.distance << " voxels apart\n";
+}
+
+void print(const ValueDiff& values) {
+  if (values.differing > 0)
+    std::cout << "  values: " << values.differing << " of " << values.compared << " differ"
+              << at(values.first) << "; by up to " << values.largest << ", rms " << values.rms
+              << '\n';
+  if (values.inactiveDiffering > 0)
+    std::cout << "  values: " << counted(values.inactiveDiffering, "inactive voxel")
+              << " have another value\n";
+}
+
+void print(const GridDiff& grid) {
+  std::cout << onOneLine(grid.name) << ": ";
+  if (!grid.inA || !grid.inB) {
+    std::cout << "only in " << (grid.inA ? 'A' : 'B') << '\n';
+    return;
+  }
+  if (!grid.same()) {
+    std::cout << "differs\n";
+    print(grid.properties, "");
+    print(grid.topology);
+    if (grid.values) print(*grid.values);
+    print(grid.metadata, "metadata ");
+    return;
+  }
+  std::cout << "same, " << counted(grid.topology.active[0], "active voxel");
+  if (grid.values && grid.values->largest > 0)
+    std::cout << "; values within the tolerance, by up to " << grid.values->largest << ", rms "
+              << grid.values->rms;
+  std::cout << '\n';
+}
+
+void print(const FileDiff& diff) {
+  for (const GridDiff& grid : diff.grids) print(grid);
+  if (diff.metadata.empty()) return;
+  std::cout << "file: differs\n";
+  print(diff.metadata, "metadata ");
+}
+
+void requireNames(const Options& options) {
+  if (options.output.empty()) return;
+  if (lowerExtension(options.output) != ".vdb")
+    throw UsageError(options.output + ": the file of --output must end in .vdb");
+  for (const std::string& input : {options.a, options.b})
+    if (isSameFile(options.output, input))
+      throw UsageError(options.output + ": is the input " + input + "; choose another name");
+  requireWritable(options.output, options.force);
+}
+
+int run(Options options) {
+  options.diff.metadata = !options.noMetadata;
+  std::istringstream names(options.grids);
+  for (std::string name; std::getline(names, name, ',');) options.diff.onlyGrids.push_back(name);
+  requireNames(options);
+  const FileDiff diff = diffVdb(options.a, options.b, options.diff);
+  if (!options.output.empty())
+    writeDifference(options.a, options.b, options.diff, options.output, options.force);
+  if (options.json) {
+    Json json = {{"a", options.a},
+                 {"b", options.b},
+                 {"same", diff.same()},
+                 {"metadata", toJson(diff.metadata)},
+                 {"grids", Json::array()}};
+    for (const GridDiff& grid : diff.grids) json["grids"].push_back(toJson(grid));
+    std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  } else if (!options.quiet) {
+    print(diff);
+  }
+  return diff.same() ? 0 : kDifferent;
+}
+
+}  // namespace
+
+Action addDiff(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("diff", "Compare two .vdb files");
+  const auto options = std::make_shared<Options>();
+  command->add_option("A", options->a, "OpenVDB file")->required();
+  command->add_option("B", options->b, "OpenVDB file to compare it with")->required();
+  command
+      ->add_option("--tolerance", options->diff.absoluteTolerance,
+                   "Values may differ by this much (default: 0)")
+      ->type_name("T")
+      ->group("Comparison");
+  command
+      ->add_option("--relative", options->diff.relativeTolerance,
+                   "... and by this part of the larger one besides (default: 0)")
+      ->type_name("R")
+      ->group("Comparison");
+  command->add_option("--grids", options->grids, "Compare these only, with commas (default: all)")
+      ->type_name("LIST")
+      ->group("Comparison");
+  command->add_flag("--no-metadata", options->noMetadata, "Do not compare metadata")
+      ->group("Comparison");
+  command
+      ->add_option("-o,--output", options->output,
+                   "Write what differs as grids: NAME_only_a, NAME_only_b, NAME_difference")
+      ->type_name("OUT.vdb")
+      ->group("Output");
+  command->add_flag("-f,--force", options->force, "Overwrite an existing output file")
+      ->group("Output");
+  command->add_flag("--json", options->json, "Print JSON")->group("Output");
+  command->add_flag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
+      ->group("Output");
+  command->footer("Exit code 0: the same; 1: different.");
+  return [options] { return run(*options); };
+}
+
+}  // namespace vox::app

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "libvox/core/error.h"
+#include "libvox/inspect/separation.h"
+#include "libvox/io/scene_file.h"
+#include "libvox/pipeline/convert.h"
+
+#include <string>
+#include <vector>
+
+namespace vox::app {
+
+/// Tunnels of one object of a scene.
+struct ObjectCheck {
+  std::string name;
+  SeparationReport separation;
+};
+
+/// Holds voxels against the surfaces of a scene, object by object. Each is subdivided again, as a
+/// whole, level by level: down to faces that fit into a voxel, or as often as its rule says.
+/// @param options  as for the conversion; `voxelSize` must be set
+/// @throws LimitError  a refined mesh does not fit into memory; and all that prepare throws
+std::vector<ObjectCheck> checkObjects(const openvdb::MaskTree& voxels, const Scene& scene,
+                                      const ConvertOptions& options);
+
+/// The check says no.
+class CheckFailed : public Error {
+ public:
+  using Error::Error;
+  int exitCode() const noexcept override { return 1; }
+};
+
+/// Checks what a conversion has made: that the voxels separate the sides of every surface, that all
+/// grids are free of what lint finds.
+/// @throws CheckFailed  names the first fault
+/// @throws UsageError   there is neither a mask nor a density grid; and all that checkObjects
+/// throws
+void verify(const Conversion& conversion, const Scene& scene, ConvertOptions options);
+
+/// "no tunnels", or how many and where.
+std::string separationText(const SeparationReport& report);
+
+}  // namespace vox::app

@@ -1,0 +1,268 @@
+// What viewers will not show. The facts about Blender are those of version 3.4.1 (DESIGN section
+// 9).
+
+#include "libvox/inspect/lint.h"
+
+#include "libvox/core/parallel.h"
+#include "libvox/inspect/leaf_values.h"
+#include "libvox/inspect/topology.h"
+#include "libvox/io/read_vdb.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Diagnostics.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <type_traits>
+
+namespace vox {
+namespace {
+
+using openvdb::Coord;
+using openvdb::GridBase;
+using openvdb::Index;
+
+class Findings {
+ public:
+  Findings(std::vector<LintFinding>& all, std::string grid) : all_(all), grid_(std::move(grid)) {}
+  void add(const std::string& code, const std::string& message) {
+    all_.push_back({code, grid_, message});
+  }
+
+ private:
+  std::vector<LintFinding>& all_;
+  std::string grid_;
+};
+
+// Values
+
+/// Extremes of the values of a grid, and those that are no numbers.
+struct Values {
+  double least = std::numeric_limits<double>::infinity();  ///< of active voxels
+  double most = -std::numeric_limits<double>::infinity();
+  std::uint64_t notFinite = 0;  ///< active or not
+  std::optional<Coord> first;   ///< of these, the lowest
+
+  void add(const Values& other) {
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+    notFinite += other.notFinite;
+    if (other.first && (!first || *other.first < *first)) first = other.first;
+  }
+
+  void add(double value, bool active, std::uint64_t voxels, const Coord& at) {
+    if (!std::isfinite(value)) {
+      notFinite += voxels;
+      if (!first || at < *first) first = at;
+    } else if (active) {
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  }
+};
+
+/// A scalar itself; of a vector the component that is no number, or else the largest.
+template <class Value>
+double scalarOf(const Value& value) {
+  if constexpr (openvdb::VecTraits<Value>::IsVec) {
+    double most = 0;
+    for (int i = 0; i < openvdb::VecTraits<Value>::Size; ++i) {
+      const auto component = std::abs(static_cast<double>(value[i]));
+      if (!std::isfinite(component)) return component;
+      most = std::max(most, component);
+    }
+    return most;
+  } else {
+    return static_cast<double>(value);
+  }
+}
+
+template <class Leaf>
+Values valuesOfLeaf(const Leaf& leaf) {
+  Values found;
+  const LeafValues<Leaf> values(leaf);
+  for (Index offset = 0; offset < Leaf::SIZE; ++offset)
+    found.add(scalarOf(values[offset]), leaf.isValueOn(offset), 1,
+              leaf.offsetToGlobalCoord(offset));
+  return found;
+}
+
+template <class Tree>
+Values valuesOf(const Tree& tree) {
+  std::vector<const typename Tree::LeafNodeType*> leaves;
+  leaves.reserve(tree.leafCount());
+  tree.getNodes(leaves);
+  constexpr std::size_t kGrain = 256;
+  std::vector<Values> parts((leaves.size() + kGrain - 1) / kGrain);
+  forEach(parts.size(), 1, [&](std::size_t i) {
+    const std::size_t end = std::min(leaves.size(), (i + 1) * kGrain);
+    for (std::size_t k = i * kGrain; k < end; ++k) parts[i].add(valuesOfLeaf(*leaves[k]));
+  });
+  Values all;
+  for (const Values& part : parts) all.add(part);
+  auto tile = tree.cbeginValueAll();
+  tile.setMaxDepth(Tree::ValueAllCIter::LEAF_DEPTH - 1);
+  for (; tile; ++tile)
+    all.add(scalarOf(*tile), tile.isValueOn(), tile.getVoxelCount(), tile.getCoord());
+  return all;
+}
+
+std::string at(const Coord& voxel) {
+  std::ostringstream text;
+  text << '(' << voxel.x() << ' ' << voxel.y() << ' ' << voxel.z() << ')';
+  return text.str();
+}
+
+template <class T>
+std::string textOf(const T& value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+bool isFog(const GridBase& grid) {
+  return grid.getGridClass() == openvdb::GRID_FOG_VOLUME ||
+         (grid.getGridClass() == openvdb::GRID_UNKNOWN && grid.getName() == "density");
+}
+
+/// Blender leaves out what is not larger.
+constexpr double kVisible = 0.001F;
+
+template <class Grid>
+void lintScalars(const Grid& grid, const Values& values, Findings& findings) {
+  const double background = scalarOf(grid.background());
+  if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) {
+    if constexpr (std::is_floating_point_v<typename Grid::ValueType>) {
+      const std::string wrong = openvdb::tools::checkLevelSet(grid);
+      if (!wrong.empty()) findings.add("level-set", "is no valid level set: " + wrong);
+    }
+    if (grid.getName() == "density")
+      findings.add("sdf-as-fog",
+                   "is a level set by the name of a fog volume: it will be shown as a cloud "
+                   "around the surface; name it surface");
+    return;
+  }
+  if (!isFog(grid)) return;
+  if (background != 0)
+    findings.add("background", "has background " + textOf(background) +
+                                   ", not 0: the space around will be filled with it");
+  if (values.least < 0 && background > 0)
+    findings.add("sdf-as-fog",
+                 "looks like signed distances, but is a fog volume: make it a level set");
+  if (grid.activeVoxelCount() > 0 && values.most <= kVisible)
+    findings.add("invisible", "has no value above 0.001: Blender will show nothing");
+}
+
+/// What takes a look at each value.
+void lintValues(const GridBase& grid, Findings& findings) {
+  using Valued = ComparedTypes::Remove<openvdb::BoolGrid, openvdb::MaskGrid>;
+  grid.apply<Valued>([&](const auto& typed) {
+    using Grid = std::decay_t<decltype(typed)>;
+    const Values values = valuesOf(typed.tree());
+    if (values.notFinite > 0)
+      findings.add("not-finite", textOf(values.notFinite) +
+                                     " voxels hold NaN or infinity, the first at " +
+                                     at(*values.first) + ": what is shown is undefined");
+    if (!std::isfinite(scalarOf(typed.background())))
+      findings.add("background", "has a background that is not a number");
+    if constexpr (!openvdb::VecTraits<typename Grid::ValueType>::IsVec)
+      lintScalars(typed, values, findings);
+  });
+}
+
+// The rest of a grid
+
+void lintVoxels(const GridBase& grid, Findings& findings) {
+  const std::uint64_t active = grid.activeVoxelCount();
+  if (active == 0)
+    findings.add("empty", "has no active voxels: there is nothing to show");
+  else if (grid.constBaseTree().leafCount() == 0)
+    findings.add("tiles-only",
+                 "has tiles but no leaf: Blender's Cycles will show nothing; voxelize the tiles");
+  const auto said = grid.getMetadata<openvdb::Int64Metadata>("vox_active_voxels");
+  if (said && static_cast<std::uint64_t>(said->value()) != active)
+    findings.add("count", "has " + textOf(active) + " active voxels, but was made with " +
+                              textOf(said->value()) + ": something has changed it since");
+}
+
+void lintTransform(const GridBase& grid, Findings& findings) {
+  const openvdb::math::Transform& transform = grid.transform();
+  if (!transform.isLinear())
+    findings.add("frustum", "has a " + transform.mapType() +
+                                ", not a linear transform: Blender will not show it; resample it");
+}
+
+void lintName(const GridBase& grid, Findings& findings) {
+  const std::string name = grid.getName();
+  if (name.empty()) findings.add("name", "has no name: viewers find grids by theirs");
+  const bool odd = std::any_of(name.begin(), name.end(), [](char c) {
+    return !(std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '-');
+  });
+  if (odd)
+    findings.add("name",
+                 "has characters in its name that attributes of Houdini cannot have; use letters, "
+                 "digits and _");
+  if (name == "N" && grid.valueType().starts_with("vec3"))
+    findings.add("name", "is a vector grid by the name of Blender's own normals; name it normal");
+}
+
+void lint(const GridBase& grid, std::vector<LintFinding>& all, const std::string& name) {
+  Findings findings(all, name);
+  lintName(grid, findings);
+  lintTransform(grid, findings);
+  lintVoxels(grid, findings);
+  lintValues(grid, findings);
+}
+
+}  // namespace
+
+const std::vector<LintRule>& lintRules() {
+  static const std::vector<LintRule> rules = {
+      {"no-density", "no grid named density, the one Blender renders by default"},
+      {"background", "a fog volume whose background is not 0"},
+      {"not-finite", "NaN or infinite values"},
+      {"level-set", "a level set that is not valid (OpenVDB's checkLevelSet)"},
+      {"sdf-as-fog", "signed distances that will be shown as fog"},
+      {"invisible", "a fog volume without values above 0.001"},
+      {"tiles-only", "tiles but no leaves"},
+      {"empty", "no active voxels"},
+      {"frustum", "a transform that is not linear"},
+      {"name", "names that are missing, doubled or taken"},
+      {"creator", "a creator starting with Houdini, at which Blender turns the object"},
+      {"count", "other voxels than vox convert made"},
+  };
+  return rules;
+}
+
+std::vector<LintFinding> lintGrid(const GridBase& grid) {
+  std::vector<LintFinding> findings;
+  lint(grid, findings, grid.getName());
+  return findings;
+}
+
+std::vector<LintFinding> lintVdb(const std::filesystem::path& file) {
+  const VdbFile vdb = readVdb(file);
+  std::vector<LintFinding> all;
+  Findings findings(all, "");
+  std::set<std::string> names;
+  for (const NamedGrid& named : vdb.grids)
+    if (!names.insert(named.grid->getName()).second)
+      findings.add("name", "there are several grids named '" + named.grid->getName() +
+                               "': viewers take one of them");
+  if (!names.contains("density"))
+    findings.add("no-density",
+                 "there is no grid named density: Blender will show nothing until a material asks "
+                 "for another");
+  const auto creator = vdb.metadata["creator"];
+  if (creator && creator->str().starts_with("Houdini"))
+    findings.add("creator", "the creator is Houdini: Blender will turn the object to Z up");
+  for (const NamedGrid& named : vdb.grids) lint(*named.grid, all, named.name);
+  return all;
+}
+
+}  // namespace vox

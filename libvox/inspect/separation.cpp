@@ -1,0 +1,380 @@
+// Tunnels, by flood and parity.
+
+#include "libvox/inspect/separation.h"
+
+#include "libvox/core/parallel.h"
+#include "libvox/grid/voxel.h"
+#include "libvox/voxelize/triangulate.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <set>
+#include <span>
+#include <vector>
+
+namespace vox {
+namespace {
+
+using openvdb::Coord;
+using openvdb::CoordBBox;
+using openvdb::MaskTree;
+using Accessor = openvdb::tree::ValueAccessor<MaskTree>;
+using ConstAccessor = openvdb::tree::ValueAccessor<const MaskTree>;
+using Triangle = std::array<Index, 3>;
+
+std::vector<Triangle> trianglesOf(const PolygonMesh& mesh) {
+  std::vector<Triangle> all;
+  std::vector<Vec3d> corners;
+  TriangulationReport report;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    corners.clear();
+    for (const Index v : mesh.face(f)) corners.push_back(mesh.points[v]);
+    const std::size_t before = all.size();
+    triangulate(corners, all, report);
+    for (std::size_t t = before; t < all.size(); ++t)
+      for (Index& corner : all[t]) corner = mesh.face(f)[corner];
+  }
+  return all;
+}
+
+// Crossings
+
+/// Points on the lattice of 2^-16 voxels: neighbouring triangles leave no gap.
+using LatticePoint = std::array<std::int64_t, 3>;
+constexpr std::int64_t kLattice = 65536;
+__extension__ using Int128 = __int128;
+
+using LatticeTriangle = std::array<LatticePoint, 3>;
+
+LatticePoint onLattice(const Vec3d& point) {
+  const auto snap = [](double x) { return std::llround(x * static_cast<double>(kLattice)); };
+  return {snap(point.x()), snap(point.y()), snap(point.z())};
+}
+
+/// Triangles that lie at the same place are one.
+std::vector<LatticeTriangle> onLattice(const PolygonMesh& mesh,
+                                       std::span<const Triangle> triangles) {
+  std::vector<LatticeTriangle> all;
+  all.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles) {
+    all.push_back(
+        {onLattice(mesh.points[a]), onLattice(mesh.points[b]), onLattice(mesh.points[c])});
+    std::sort(all.back().begin(), all.back().end());
+  }
+  sortInParallel(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// Steps along one axis that cross the surface an odd number of times, by their lower voxel.
+class Crossings {
+ public:
+  explicit Crossings(std::size_t axis) : axis_(axis), accessor_(odd_) {}
+
+  const MaskTree& odd() const { return odd_; }
+
+  /// Where columns of voxel centres pierce a triangle. A column at a side or corner belongs to one
+  /// of the triangles there, as in any point-in-polygon test by rays of half-open sides.
+  void add(const LatticeTriangle& triangle) {
+    const std::size_t u = (axis_ + 1) % 3;
+    const std::size_t v = (axis_ + 2) % 3;
+    const auto range = [&](std::size_t axis) {
+      const auto [low, high] =
+          std::minmax({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+      return std::pair(-floorOf(-low), floorOf(high));  // centres within
+    };
+    const auto [lowU, highU] = range(u);
+    const auto [lowV, highV] = range(v);
+    for (std::int64_t atU = lowU; atU <= highU; ++atU)
+      for (std::int64_t atV = lowV; atV <= highV; ++atV)
+        if (holds(triangle, u, v, atU * kLattice, atV * kLattice)) toggle(triangle, u, v, atU, atV);
+  }
+
+ private:
+  static std::int64_t floorOf(std::int64_t lattice) { return lattice >> 16; }
+
+  static bool holds(const LatticeTriangle& triangle, std::size_t u, std::size_t v, std::int64_t atU,
+                    std::int64_t atV) {
+    bool inside = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const LatticePoint* low = &triangle[i];
+      const LatticePoint* high = &triangle[(i + 1) % 3];
+      if (((*low)[v] > atV) == ((*high)[v] > atV)) continue;
+      if ((*low)[v] > (*high)[v]) std::swap(low, high);
+      const auto a = static_cast<Int128>((*high)[u] - (*low)[u]) * (atV - (*low)[v]);
+      const auto b = static_cast<Int128>(atU - (*low)[u]) * ((*high)[v] - (*low)[v]);
+      if (b < a) inside = !inside;
+    }
+    return inside;
+  }
+
+  void toggle(const LatticeTriangle& triangle, std::size_t u, std::size_t v, std::int64_t atU,
+              std::int64_t atV) {
+    // Relative to a corner, where doubles are exact enough: a step may only be mistaken where the
+    // surface passes through a centre, which is active then.
+    const auto relative = [&](std::size_t corner, std::size_t axis) {
+      return static_cast<double>(triangle[corner][axis] - triangle[0][axis]);
+    };
+    const double u1 = relative(1, u), v1 = relative(1, v), w1 = relative(1, axis_);
+    const double u2 = relative(2, u), v2 = relative(2, v), w2 = relative(2, axis_);
+    const auto pu = static_cast<double>(atU * kLattice - triangle[0][u]);
+    const auto pv = static_cast<double>(atV * kLattice - triangle[0][v]);
+    const double area = u1 * v2 - u2 * v1;
+    const double height = ((pu * v2 - u2 * pv) * w1 + (u1 * pv - pu * v1) * w2) / area;
+    const std::int64_t at = triangle[0][axis_] + std::llround(height);
+    Coord voxel;
+    voxel[static_cast<int>(u)] = static_cast<std::int32_t>(atU);
+    voxel[static_cast<int>(v)] = static_cast<std::int32_t>(atV);
+    voxel[static_cast<int>(axis_)] = static_cast<std::int32_t>(floorOf(at));
+    accessor_.setActiveState(voxel, !accessor_.isValueOn(voxel));
+  }
+
+  std::size_t axis_;
+  MaskTree odd_;
+  Accessor accessor_;
+};
+
+// The layer around the surface
+
+/// Whether a triangle, given relative to the centre, meets a cube: no axis tells them apart. Of the
+/// axes of the cube, the normal, and the products of both with the sides.
+bool meetsCube(const std::array<Vec3d, 3>& t, double halfSide) {
+  const auto apart = [&](const Vec3d& axis) {
+    const auto [low, high] = std::minmax({axis.dot(t[0]), axis.dot(t[1]), axis.dot(t[2])});
+    const double reach = halfSide * axis.lpNorm<1>();
+    return low > reach || high < -reach;
+  };
+  for (int i = 0; i < 3; ++i)
+    if (apart(Vec3d::Unit(i))) return false;
+  const std::array<Vec3d, 3> sides = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
+  if (apart(sides[0].cross(sides[1]))) return false;
+  for (const Vec3d& side : sides)
+    for (int i = 0; i < 3; ++i)
+      if (apart(side.cross(Vec3d::Unit(i)))) return false;
+  return true;
+}
+
+/// Voxels whose closed cubes meet the surface.
+MaskTree voxelsOn(const PolygonMesh& mesh, std::span<const Triangle> triangles) {
+  MaskTree voxels;
+  Accessor accessor(voxels);
+  scanTriangles(mesh.points, triangles, Separation::k26, [&](const VoxelBlock& block) {
+    forEachVoxel(block, [&](int x, int y, int z) { accessor.setValueOn({x, y, z}); });
+  });
+  return voxels;
+}
+
+/// Voxels within 1/2 and a tolerance (L-inf) of the surface.
+MaskTree layerAround(const PolygonMesh& mesh, std::span<const Triangle> triangles,
+                     double tolerance) {
+  if (tolerance == 0) return voxelsOn(mesh, triangles);
+  MaskTree layer;
+  Accessor accessor(layer);
+  const Vec3d reach = Vec3d::Constant(tolerance);  // voxelOf adds the half
+  for (const Triangle& t : triangles) {
+    const Vec3d& a = mesh.points[t[0]];
+    const Vec3d& b = mesh.points[t[1]];
+    const Vec3d& c = mesh.points[t[2]];
+    const CoordBBox box(voxelOf(a.cwiseMin(b).cwiseMin(c) - reach),
+                        voxelOf(a.cwiseMax(b).cwiseMax(c) + reach));
+    for (const Coord& voxel : box) {
+      if (accessor.isValueOn(voxel)) continue;
+      const Vec3d centre(voxel.x(), voxel.y(), voxel.z());
+      if (meetsCube({a - centre, b - centre, c - centre}, 0.5 + tolerance))
+        accessor.setValueOn(voxel);
+    }
+  }
+  return layer;
+}
+
+/// Voxels within about two of the boundary.
+MaskTree rimOf(const ReferenceSurface& surface) {
+  constexpr int kWide = 2;
+  const PolygonMesh& mesh = surface.mesh;
+  MaskTree rim;
+  Accessor accessor(rim);
+  for (Index c = 0; c < mesh.cornerCount(); ++c) {
+    if (surface.adjacency.twin[c] != kNone) continue;
+    const Vec3d& from = mesh.points[mesh.faceVertices[c]];
+    const Vec3d& to = mesh.points[mesh.faceVertices[nextCorner(mesh, surface.adjacency, c)]];
+    const int steps = 1 + static_cast<int>((to - from).cwiseAbs().maxCoeff());
+    for (int i = 0; i <= steps; ++i) {
+      CoordBBox box(voxelOf(from + (to - from) * i / steps),
+                    voxelOf(from + (to - from) * i / steps));
+      box.expand(kWide);
+      for (const Coord& voxel : box) accessor.setValueOn(voxel);
+    }
+  }
+  return rim;
+}
+
+/// Space around a surface as a flood sees it.
+class Space {
+ public:
+  Space(const MaskTree& voxels, const ReferenceSurface& surface,
+        std::span<const Triangle> triangles)
+      : layer_(layerAround(surface.mesh, triangles, surface.tolerance)),
+        rim_(rimOf(surface)),
+        voxels_(voxels),
+        inLayer_(layer_),
+        inRim_(rim_),
+        crossings_{Crossings(0), Crossings(1), Crossings(2)} {
+    for (const LatticeTriangle& triangle : onLattice(surface.mesh, triangles))
+      for (Crossings& crossings : crossings_) crossings.add(triangle);
+  }
+
+  const MaskTree& layer() const { return layer_; }
+  bool isWhite(const Coord& voxel) const { return !voxels_.isValueOn(voxel); }
+  bool isInLayer(const Coord& voxel) const { return inLayer_.isValueOn(voxel); }
+
+  /// Whether a step to a neighbour crosses the surface, away from its boundary.
+  bool crosses(const Coord& from, const Coord& to) const {
+    const Coord lower = std::min(from, to);
+    const std::size_t axis = from.x() != to.x() ? 0 : from.y() != to.y() ? 1 : 2;
+    return crossings_[axis].odd().isValueOn(lower) && !inRim_.isValueOn(lower);
+  }
+
+ private:
+  MaskTree layer_;
+  MaskTree rim_;
+  ConstAccessor voxels_;
+  ConstAccessor inLayer_;
+  ConstAccessor inRim_;
+  std::array<Crossings, 3> crossings_;
+};
+
+template <class Visit>
+void forEachNeighbour(const Coord& voxel, Visit&& visit) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int step : {-1, 1}) {
+      Coord next = voxel;
+      next[axis] += step;
+      visit(next);
+    }
+}
+
+/// Inactive voxels of the layer that hang together, with the side of each: crossings modulo 2.
+class Flood {
+ public:
+  explicit Flood(const Space& space) : space_(space), visited_(visitedTree_), far_(farTree_) {}
+
+  bool hasVisited(const Coord& voxel) const { return visited_.isValueOn(voxel); }
+
+  struct Cluster {
+    bool leaks = false;
+    std::vector<Coord> holes;  ///< lower ends of steps that cross between inactive voxels
+  };
+
+  Cluster flood(const Coord& start) {
+    Cluster cluster;
+    std::array<bool, 2> reachesFar{};
+    std::vector<Coord> left = {start};
+    visited_.setValueOn(start);
+    while (!left.empty()) {
+      const Coord voxel = left.back();
+      left.pop_back();
+      forEachNeighbour(voxel, [&](const Coord& next) {
+        if (!space_.isWhite(next)) return;
+        const bool crosses = space_.crosses(voxel, next);
+        const bool side = far_.isValueOn(voxel) != crosses;
+        if (crosses) cluster.holes.push_back(std::min(voxel, next));
+        if (!space_.isInLayer(next)) {
+          reachesFar[side ? 1 : 0] = true;
+        } else if (!visited_.isValueOn(next)) {
+          visited_.setValueOn(next);
+          if (side) far_.setValueOn(next);
+          left.push_back(next);
+        } else if (far_.isValueOn(next) != side) {
+          cluster.leaks = true;
+        }
+      });
+    }
+    cluster.leaks = cluster.leaks || (reachesFar[0] && reachesFar[1]);
+    return cluster;
+  }
+
+ private:
+  const Space& space_;
+  MaskTree visitedTree_;
+  MaskTree farTree_;
+  Accessor visited_;
+  Accessor far_;
+};
+
+/// Whether inactive voxels lead out of the layer near by without crossing the surface.
+bool leadsOut(const Space& space, const Coord& start) {
+  constexpr int kReach = 6;
+  std::set<Coord> seen = {start};
+  std::deque<Coord> left = {start};
+  while (!left.empty()) {
+    const Coord voxel = left.front();
+    left.pop_front();
+    if (!space.isInLayer(voxel)) return true;
+    forEachNeighbour(voxel, [&](const Coord& next) {
+      const Coord d = next - start;
+      if (std::max({std::abs(d.x()), std::abs(d.y()), std::abs(d.z())}) > kReach) return;
+      if (space.isWhite(next) && !space.crosses(voxel, next) && seen.insert(next).second)
+        left.push_back(next);
+    });
+  }
+  return false;
+}
+
+/// The steps that are holes, not entrances of pockets; all of them if that cannot be told.
+std::vector<Coord> throughHoles(const Space& space, std::vector<Coord> steps) {
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  std::vector<Coord> holes;
+  for (const Coord& lower : steps)
+    for (int axis = 0; axis < 3; ++axis) {
+      Coord upper = lower;
+      ++upper[axis];
+      if (!space.isWhite(lower) || !space.isWhite(upper) || !space.crosses(lower, upper)) continue;
+      if (leadsOut(space, lower) && leadsOut(space, upper)) holes.push_back(lower);
+    }
+  holes.erase(std::unique(holes.begin(), holes.end()), holes.end());
+  return holes.empty() ? steps : holes;
+}
+
+void note(SeparationReport& report, const std::vector<Coord>& holes) {
+  report.tunnels += std::max<std::size_t>(1, holes.size());
+  for (const Coord& hole : holes) {
+    const VoxelIndex at = {hole.x(), hole.y(), hole.z()};
+    if (!report.first || at < *report.first) report.first = at;
+  }
+}
+
+SeparationReport findTunnels6(const MaskTree& voxels, const ReferenceSurface& surface,
+                              std::span<const Triangle> triangles) {
+  const Space space(voxels, surface, triangles);
+  Flood flood(space);
+  SeparationReport report;
+  for (auto voxel = space.layer().cbeginValueOn(); voxel; ++voxel) {
+    const Coord at = voxel.getCoord();
+    if (!space.isWhite(at) || flood.hasVisited(at)) continue;
+    const Flood::Cluster cluster = flood.flood(at);
+    if (cluster.leaks) note(report, throughHoles(space, cluster.holes));
+  }
+  return report;
+}
+
+}  // namespace
+
+SeparationReport findTunnels(const MaskTree& voxels, const ReferenceSurface& surface,
+                             Separation separation) {
+  const std::vector<Triangle> triangles = trianglesOf(surface.mesh);
+  if (separation == Separation::k6) return findTunnels6(voxels, surface, triangles);
+  SeparationReport report;
+  MaskTree missing = voxelsOn(surface.mesh, triangles);
+  missing.topologyDifference(voxels);
+  std::vector<Coord> holes;
+  for (auto voxel = missing.cbeginValueOn(); voxel; ++voxel) holes.push_back(voxel.getCoord());
+  if (!holes.empty()) note(report, holes);
+  return report;
+}
+
+}  // namespace vox

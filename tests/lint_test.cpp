@@ -1,0 +1,139 @@
+#include "libvox/inspect/lint.h"
+
+#include "libvox/pipeline/convert.h"
+#include "tests/shapes.h"
+#include "tests/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/ChangeBackground.h>
+#include <openvdb/tools/LevelSetSphere.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+using namespace vox;
+using openvdb::Coord;
+using openvdb::CoordBBox;
+
+namespace {
+
+std::string codesOf(const std::vector<LintFinding>& findings) {
+  std::set<std::string> codes;
+  for (const LintFinding& finding : findings) {
+    const auto& rules = lintRules();
+    CHECK(std::any_of(rules.begin(), rules.end(),
+                      [&](const LintRule& rule) { return rule.code == finding.code; }));
+    codes.insert(finding.code);
+  }
+  std::string text;
+  for (const std::string& code : codes) text += (text.empty() ? "" : " ") + code;
+  return text;
+}
+
+openvdb::FloatGrid::Ptr fog(const std::string& name = "density") {
+  openvdb::initialize();
+  auto grid = openvdb::FloatGrid::create();
+  grid->setName(name);
+  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+  for (int x = 0; x < 100; ++x) grid->tree().setValueOn({x, 3, 4}, 1.0F);
+  return grid;
+}
+
+std::string codesOfFile(const openvdb::GridPtrVec& grids, const std::string& creator = "") {
+  const test::TemporaryFolder folder;
+  openvdb::MetaMap metadata;
+  if (!creator.empty()) metadata.insertMeta("creator", openvdb::StringMetadata(creator));
+  openvdb::io::File((folder / "a.vdb").string()).write(grids, metadata);
+  return codesOf(lintVdb(folder / "a.vdb"));
+}
+
+}  // namespace
+
+TEST_CASE("what vox convert makes has no faults", "[inspect][lint]") {
+  const test::TemporaryFolder folder;
+  Scene scene;
+  scene.objects.push_back({"torus", test::torusGrid(8, 5)});
+  ConvertOptions options;
+  options.dim = 40;
+  options.grids = std::vector{GridKind::kDensity, GridKind::kMask};
+  writeGrids(folder / "a.vdb", convert(scene, options), false);
+  CHECK(codesOf(lintVdb(folder / "a.vdb")).empty());
+  options.grids = std::vector{GridKind::kMask};
+  writeGrids(folder / "b.vdb", convert(scene, options), false);
+  CHECK(codesOf(lintVdb(folder / "b.vdb")) == "no-density");
+}
+
+TEST_CASE("every fault planted in a fog volume is named", "[inspect][lint]") {
+  CHECK(codesOf(lintGrid(*fog())).empty());
+  const float inf = std::numeric_limits<float>::infinity();
+  const auto planted = [](auto&& plant) {
+    auto grid = fog();
+    plant(*grid);
+    return codesOf(lintGrid(*grid));
+  };
+  using Grid = openvdb::FloatGrid;
+  for (const float wrong : {inf, -inf, std::numeric_limits<float>::quiet_NaN()}) {
+    CHECK(planted([&](Grid& grid) { grid.tree().setValueOn({50, 3, 4}, wrong); }) == "not-finite");
+    CHECK(planted([&](Grid& grid) { grid.tree().setValueOff({70, 3, 5}, wrong); }) == "not-finite");
+    CHECK(planted([&](Grid& grid) {
+            grid.fill(CoordBBox::createCube({128, 128, 128}, 128), wrong);
+          }) == "not-finite");
+  }
+  CHECK(planted([](Grid& grid) { openvdb::tools::changeBackground(grid.tree(), 0.5F); }) ==
+        "background");
+  CHECK(planted([](Grid& grid) { grid.clear(); }) == "empty");
+  CHECK(planted([](Grid& grid) {
+          grid.clear();
+          grid.fill(CoordBBox::createCube({0, 0, 0}, 8), 1.0F);
+        }) == "tiles-only");
+  CHECK(planted([](Grid& grid) {
+          for (auto value = grid.beginValueOn(); value; ++value) value.setValue(0.001F);
+        }) == "invisible");
+  CHECK(planted([](Grid& grid) { grid.setName(""); }) == "name");
+  CHECK(planted([](Grid& grid) { grid.setName("my grid"); }) == "name");
+  CHECK(planted([](Grid& grid) {
+          grid.setTransform(openvdb::math::Transform::createFrustumTransform(
+              openvdb::BBoxd({0, 0, 0}, {100, 100, 100}), 0.5, 10.0));
+        }) == "frustum");
+  CHECK(planted([](Grid& grid) {
+          grid.insertMeta("vox_active_voxels", openvdb::Int64Metadata(99));
+        }) == "count");
+}
+
+TEST_CASE("signed distances are checked as such, and must not be called density",
+          "[inspect][lint]") {
+  openvdb::initialize();
+  const auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(10, {}, 1);
+  sphere->setName("surface");
+  CHECK(codesOf(lintGrid(*sphere)).empty());
+  auto wrong = sphere->deepCopy();
+  wrong->setName("density");
+  CHECK(codesOf(lintGrid(*wrong)) == "sdf-as-fog");
+  wrong->setGridClass(openvdb::GRID_FOG_VOLUME);
+  CHECK(codesOf(lintGrid(*wrong)) == "background sdf-as-fog");
+  wrong = sphere->deepCopy();
+  wrong->tree().setValueOn({10, 0, 0}, 2.5F);  // a slope of more than one
+  CHECK(codesOf(lintGrid(*wrong)) == "level-set");
+}
+
+TEST_CASE("vectors are looked into", "[inspect][lint]") {
+  openvdb::initialize();
+  auto grid = openvdb::Vec3SGrid::create();
+  grid->setName("velocity");
+  grid->tree().setValueOn({0, 0, 0}, {1, 2, 3});
+  CHECK(codesOf(lintGrid(*grid)).empty());
+  grid->tree().setValueOn({0, 0, 0}, {1, std::numeric_limits<float>::quiet_NaN(), 3});
+  CHECK(codesOf(lintGrid(*grid)) == "not-finite");
+  grid->tree().setValueOn({0, 0, 0}, {1, 2, 3});
+  grid->setName("N");
+  CHECK(codesOf(lintGrid(*grid)) == "name");
+}
+
+TEST_CASE("faults of a whole file are named", "[inspect][lint]") {
+  CHECK(codesOfFile({fog()}).empty());
+  CHECK(codesOfFile({fog("smoke")}) == "no-density");
+  CHECK(codesOfFile({fog(), fog()}) == "name");
+  CHECK(codesOfFile({fog()}, "Houdini/SOP_OpenVDB") == "creator");
+}
