@@ -225,6 +225,26 @@ printf '[convert]\nuntil = { levels = 31 }\n[[object]]\n%s\n' "$cube" >until.tom
 expect 3 'until.toml:2:20: levels must lie between 0 and 30' convert until.toml -o out.vdb
 expect 4 'use fewer levels' convert "$scenes/cube.obj" -o out.vdb --until levels=30 --max-memory 256M
 
+# Volumes: the command line goes before the scene.
+printf '[convert]\nfill = "solid"\ngain = 3\n[[object]]\nname = "block"\n%s\n' "$cube" >solid.toml
+expect 0 'active voxels' convert solid.toml -o solid.vdb --dim 64 --report solid.json
+expect 0 'active voxels' convert solid.toml -o shell.vdb --dim 64 --fill surface
+"$vox" info --json solid.vdb shell.vdb >info.json
+python3 - <<'PY' || fail "a solid"
+import json
+solid, shell = (file["grids"][0]["active_voxels"] for file in json.load(open("info.json")))
+# The smoothed cube lies between the ball of the same width and the cube, the shell counts for a bit.
+assert 0.52 * 64**3 < solid < 0.95 * 64**3 and shell < solid / 5, (solid, shell)
+assert json.load(open("solid.json"))["options"]["fill"] is None
+PY
+expect 2 "--fill must be one of surface, solid, not 'half'" convert good.obj -o out.vdb --fill half
+expect 2 "--open-mesh must be one of" convert good.obj -o out.vdb --open-mesh maybe
+expect 2 'gain must be positive' convert good.obj -o out.vdb --gain 0
+expect 2 'gain' convert good.obj -o out.vdb --gain lots
+expect 3 'good: 1 of its 1 component has no inside; the first, of 1 face, is open at .*--open-mesh' convert good.obj -o out.vdb --fill solid --open-mesh error
+expect 0 '' convert good.obj -o good.vdb --fill solid --dim 16
+grep -q 'warning: good: 1 of its 1 component has no inside' stderr || fail "open: $(cat stderr)"
+
 # Faults of a mesh are repaired, and told.
 expect 0 '' convert winding.obj -o winding.vdb --dim 8
 grep -q 'warning: winding: dropped 1 duplicate face' stderr || fail "no word of the repair: $(cat stderr)"

@@ -30,6 +30,7 @@ struct Options {
   std::optional<bool> strict;
   SubmeshArguments submeshes;
   std::string grids;
+  VolumeArguments volume;
   std::string report;
   CommonOptions common;
 };
@@ -83,6 +84,7 @@ ConvertOptions parse(const Options& options) {
   parsed.separation = parseSeparation(options.voxelization);
   parsed.weldTolerance = options.weldTolerance;
   parsed.strict = options.strict;
+  parsed.volume = parseVolume(options.volume);
   parsed.surface = parseSubmeshes(options.submeshes);
   parsed.run = options.common.run;
   if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
@@ -141,6 +143,7 @@ Action addConvert(CLI::App& app) {
           "Grids to write, with commas: " + allGridNames() + " (default: the scene's, or density)")
       ->type_name("LIST")
       ->group("Output");
+  addVolumeOptions(*command, options->volume);
   addSubmeshOptions(*command, options->submeshes);
   command
       ->add_option("--report", options->report,

@@ -54,19 +54,24 @@ Json optionsJson(const FinishedRun& run) {
   const ConvertOptions& options = run.options;
   const SmoothingOptions& smoothing = options.smoothing;
   const auto orNull = [](const auto& value) { return value ? Json(*value) : Json(); };
-  return {{"dim", orNull(options.dim)},
-          {"voxel_size", orNull(options.voxelSize)},
-          {"boundary", smoothing.boundary ? Json(boundaryRuleName(*smoothing.boundary)) : Json()},
-          {"interpolate",
-           smoothing.interpolate ? Json(interpolateName(*smoothing.interpolate)) : Json()},
-          {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
-          {"weld", orNull(options.weldTolerance)},
-          {"strict", orNull(options.strict)},
-          {"grids", options.grids ? gridNames(run) : Json()},
-          {"localize", localizeName(options.surface.localize)},
-          {"submesh_faces", options.surface.submeshFaces},
-          {"threads", options.run.threads > 0 ? Json(options.run.threads) : Json()},
-          {"max_memory", options.run.maxMemory > 0 ? Json(options.run.maxMemory) : Json()}};
+  return {
+      {"dim", orNull(options.dim)},
+      {"voxel_size", orNull(options.voxelSize)},
+      {"boundary", smoothing.boundary ? Json(boundaryRuleName(*smoothing.boundary)) : Json()},
+      {"interpolate",
+       smoothing.interpolate ? Json(interpolateName(*smoothing.interpolate)) : Json()},
+      {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
+      {"weld", orNull(options.weldTolerance)},
+      {"strict", orNull(options.strict)},
+      {"fill", options.volume.fill ? Json(nameIn(kFillNames, *options.volume.fill)) : Json()},
+      {"gain", orNull(options.volume.gain)},
+      {"open_mesh",
+       options.volume.openMesh ? Json(nameIn(kOpenMeshNames, *options.volume.openMesh)) : Json()},
+      {"grids", options.grids ? gridNames(run) : Json()},
+      {"localize", localizeName(options.surface.localize)},
+      {"submesh_faces", options.surface.submeshFaces},
+      {"threads", options.run.threads > 0 ? Json(options.run.threads) : Json()},
+      {"max_memory", options.run.maxMemory > 0 ? Json(options.run.maxMemory) : Json()}};
 }
 
 Json memoryJson(const Conversion& conversion) {

@@ -42,6 +42,18 @@ std::uint64_t parseBytes(const std::string& text) {
   return static_cast<std::uint64_t>(bytes);
 }
 
+/// Value of an option by its name; nothing if it was not given.
+template <class Enum, std::size_t N>
+std::optional<Enum> parseNamed(const char* option, const NameTable<Enum, N>& names,
+                               const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto value = namedIn(names, text);
+  if (!value)
+    throw UsageError(std::string(option) + " must be one of " + allNamesIn(names) + ", not '" +
+                     text + "'");
+  return value;
+}
+
 }  // namespace
 
 void addCommonOptions(CLI::App& command, CommonOptions& common) {
@@ -151,6 +163,35 @@ Separation parseSeparation(const VoxelizationArguments& arguments) {
   if (arguments.separating.empty() || arguments.separating == "6") return Separation::k6;
   if (arguments.separating == "26") return Separation::k26;
   throw UsageError("--separating must be 6 or 26, not '" + arguments.separating + "'");
+}
+
+void addVolumeOptions(CLI::App& command, VolumeArguments& arguments) {
+  command
+      .add_option("--fill", arguments.fill,
+                  "What density holds: the voxels of the surface (surface), or all that they "
+                  "enclose, too (solid) (default: the scene's, or surface)")
+      ->type_name("surface|solid")
+      ->group("Output");
+  command
+      .add_option_function<double>(
+          "--gain", [&arguments](double gain) { arguments.gain = gain; },
+          "Value of density (default: the scene's, or 1)")
+      ->type_name("G")
+      ->group("Output");
+  command
+      .add_option("--open-mesh", arguments.openMesh,
+                  "Where an inside is asked for, a component that has none is an error, or stays a "
+                  "surface (default: the scene's, or surface)")
+      ->type_name("error|surface")
+      ->group("Output");
+}
+
+VolumeOptions parseVolume(const VolumeArguments& arguments) {
+  VolumeOptions volume;
+  volume.fill = parseNamed("--fill", kFillNames, arguments.fill);
+  volume.openMesh = parseNamed("--open-mesh", kOpenMeshNames, arguments.openMesh);
+  volume.gain = arguments.gain;
+  return volume;
 }
 
 void addWeldOption(CLI::App& command, std::optional<double>& tolerance) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/grid/grid_kind.h"
+#include "libvox/grid/volume_options.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/smoothing.h"
 #include "libvox/mesh/stop_rule.h"
@@ -56,6 +57,18 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
 /// @throws UsageError
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
+
+/// --fill, --gain and --open-mesh, as typed.
+struct VolumeArguments {
+  std::string fill;
+  std::string openMesh;
+  std::optional<double> gain;
+};
+void addVolumeOptions(CLI::App& command, VolumeArguments& arguments);
+
+/// What they mean.
+/// @throws UsageError
+VolumeOptions parseVolume(const VolumeArguments& arguments);
 
 /// --weld, as said.
 void addWeldOption(CLI::App& command, std::optional<double>& tolerance);

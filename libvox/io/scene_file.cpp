@@ -136,9 +136,34 @@ std::vector<GridKind> readGrids(const SceneText& scene, const toml::node& node) 
   return grids;
 }
 
+/// A value by its name, if the table has the key.
+template <class Enum, std::size_t N>
+void readNamed(const SceneText& text, const toml::table& table, const char* key,
+               const NameTable<Enum, N>& names, std::optional<Enum>& value) {
+  const auto* node = table.get(key);
+  if (node == nullptr) return;
+  const std::string name = requireString(text, *node, key);
+  value = namedIn(names, name);
+  if (!value)
+    text.fail(*node,
+              std::string(key) + " must be one of " + allNamesIn(names) + ", not " + quote(name));
+}
+
+VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table) {
+  VolumeOptions volume;
+  readNamed(text, table, "fill", kFillNames, volume.fill);
+  readNamed(text, table, "open_mesh", kOpenMeshNames, volume.openMesh);
+  if (const auto* gain = table.get("gain")) {
+    volume.gain = requireNumber(text, *gain, "gain");
+    if (!(*volume.gain > 0)) text.fail(*gain, "gain must be positive");
+  }
+  return volume;
+}
+
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(text, table, "[convert]",
-                   {"dim", "voxel_size", "grids", "until", "weld", "strict"});
+  requireKnownKeys(
+      text, table, "[convert]",
+      {"dim", "voxel_size", "grids", "fill", "gain", "open_mesh", "until", "weld", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -148,6 +173,7 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
     if (scene.dim) text.fail(*size, "dim and voxel_size cannot both be given");
   }
   if (const auto* grids = table.get("grids")) scene.grids = readGrids(text, *grids);
+  scene.volume = readVolumeOptions(text, table);
   if (const auto* until = table.get("until")) scene.until = readStopRule(text, *until);
   if (const auto* weld = table.get("weld")) {
     scene.weldTolerance = requireNumber(text, *weld, "weld");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/grid/grid_kind.h"
+#include "libvox/grid/volume_options.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/mesh/smoothing.h"
 #include "libvox/mesh/stop_rule.h"
@@ -26,6 +27,7 @@ struct Scene {
   std::optional<std::vector<GridKind>> grids;
   std::optional<double> weldTolerance;       ///< [convert] weld: world units
   std::optional<bool> strict;                ///< [convert] strict: no repair
+  VolumeOptions volume;                      ///< [convert] fill, gain, open_mesh
   std::optional<StopRule> until;             ///< [convert] until: of objects that say nothing
   std::vector<SceneObject> objects;          ///< at least one
   std::vector<std::filesystem::path> files;  ///< the input file, then the meshes it names

@@ -14,6 +14,7 @@
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
 #include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/metadata.h"
 #include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/refine.h"
@@ -138,6 +139,12 @@ void plan(const Scene& scene, const ConvertOptions& options, std::span<const dou
 
 // Conversion
 
+/// Whether a grid tells inside from outside.
+bool needsInside(std::span<const GridKind> kinds, const VolumeOptions& volume) {
+  return volume.fill == Fill::kSolid &&
+         std::find(kinds.begin(), kinds.end(), GridKind::kDensity) != kinds.end();
+}
+
 /// Notes what preparation did, and refuses vertices that it moved out of the range of the grid.
 void notePreparation(const PreparedObject& prepared, const GridTransform& transform,
                      ObjectReport& part, ConvertReport& report) {
@@ -237,11 +244,16 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
   const GridTransform transform = chooseTransform(box, scene, options);
   const std::vector<GridKind> kinds =
       options.grids.value_or(scene.grids.value_or(std::vector{GridKind::kDensity}));
+  const VolumeOptions volume = overriding(options.volume, scene.volume);
   const std::vector<double> areas = areasOf(scene, transform, progress);
   plan(scene, options, areas, kinds, progress);
   report.voxelSize = transform.voxelSize;
   const std::vector<PreparedSurface> surfaces =
       prepareObjects(scene, options, transform, box.longestSide(), kinds, budget, progress, report);
+  if (needsInside(kinds, volume))
+    for (const PreparedSurface& surface : surfaces)
+      requireInside(surface, volume.openMesh.value_or(OpenMesh::kSurface), transform,
+                    report.warnings);
   const openvdb::MaskGrid::Ptr mask =
       markObjects(scene, surfaces, options, transform, areas, budget, progress, report);
 
@@ -249,7 +261,7 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, options, transform, report);
   for (const GridKind kind : kinds) {
-    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, budget);
+    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, volume, budget, progress);
     progress.check();
     for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
       grid->insertMeta(entry->first, *entry->second);
@@ -262,6 +274,7 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
 
 Conversion convert(const Scene& scene, const ConvertOptions& options) {
   requireStopRules(scene, options);
+  requireValid(overriding(options.volume, scene.volume));
   requireValidScene(scene);
   Progress unwatched;
   Progress& progress = options.run.progress != nullptr ? *options.run.progress : unwatched;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/grid/grid_kind.h"
+#include "libvox/grid/volume_options.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/stop_rule.h"
 #include "libvox/pipeline/polygons.h"
@@ -37,6 +38,7 @@ struct ConvertOptions : PreparationOptions {
   std::optional<std::vector<GridKind>> grids;  ///< default: density
   std::optional<StopRule> until;               ///< default: voxel
   Separation separation = Separation::k6;      ///< k26 needs polygons: until levels
+  VolumeOptions volume;
   SurfaceOptions surface;
   RunOptions run;
 };
@@ -82,7 +84,7 @@ struct Conversion {
 /// @throws UsageError  dim, voxel size, number of threads, levels, smoothing or weld tolerance is
 ///   nonsense; 26-separating voxels are asked for where an object is not to stop at a level
 /// @throws InputError  the input has no extent and no voxel size is given
-/// @throws MeshError   as prepare (refine.h)
+/// @throws MeshError   as prepare (refine.h); an object has no inside, and one is asked for
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid
 /// @throws Cancelled   options.run.progress says so
 Conversion convert(const Scene& scene, const ConvertOptions& options);

@@ -3,8 +3,10 @@
 #include "libvox/pipeline/grids.h"
 
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
+#include "libvox/volume/fill.h"
 
 #include <openvdb/openvdb.h>
 
@@ -72,11 +74,19 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 }
 
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> /*surfaces*/,
-                                MemoryBudget& budget) {
+                                std::span<const PreparedSurface> surfaces,
+                                const VolumeOptions& volume, MemoryBudget& budget,
+                                const Progress& progress) {
   if (kind == GridKind::kMask) return mask;
-  budget.take(bytesOfDensity(mask->tree()), "the density grid", kScatteredAdvice);
-  return densityGrid(*mask);
+  openvdb::MaskTree::Ptr voxels = mask->treePtr();
+  if (volume.fill.value_or(Fill::kSurface) == Fill::kSolid) {
+    budget.require(bytesOfFilling(*voxels), "the inside", kScatteredAdvice);
+    voxels = solidOf(*voxels, surfaces, budget, progress);
+  }
+  budget.take(bytesOfDensity(*voxels), "the density grid", kScatteredAdvice);
+  const auto density = densityGrid(*voxels, static_cast<float>(volume.gain.value_or(1)));
+  density->setTransform(mask->transform().copy());
+  return density;
 }
 
 std::uint64_t expectedBytes(std::span<const openvdb::GridBase::Ptr> grids) {

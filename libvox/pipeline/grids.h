@@ -1,26 +1,19 @@
 #pragma once
 
 #include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/grid/grid_kind.h"
 #include "libvox/grid/transform.h"
-#include "libvox/mesh/stop_rule.h"
-#include "libvox/subdivide/level.h"
+#include "libvox/grid/volume_options.h"
+#include "libvox/pipeline/prepared_surface.h"
 
 #include <openvdb/openvdb.h>
 
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 
 namespace vox {
-
-/// An object as it is voxelized, in index space.
-struct PreparedSurface {
-  std::string name;
-  SubdivisionLevel base;
-  StopRule until;
-};
 
 /// What to do about a grid that is too large.
 inline constexpr const char* kScatteredAdvice =
@@ -38,8 +31,11 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 
 /// The output grid of a kind, from the black voxels and the surfaces they came from.
 /// @throws LimitError  it does not fit into the budget
+/// @throws Cancelled
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget);
+                                std::span<const PreparedSurface> surfaces,
+                                const VolumeOptions& volume, MemoryBudget& budget,
+                                const Progress& progress);
 
 /// Work of making grids (work.h), by the area of each object in square voxels.
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds);

@@ -24,6 +24,10 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
   if (smoothing.interpolatedVertices)
     text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
   if (options.weldTolerance) text << " weld=" << *options.weldTolerance;
+  if (options.volume.fill) text << " fill=" << nameIn(kFillNames, *options.volume.fill);
+  if (options.volume.gain) text << " gain=" << *options.volume.gain;
+  if (options.volume.openMesh)
+    text << " open-mesh=" << nameIn(kOpenMeshNames, *options.volume.openMesh);
   if (options.until) text << " until=" << stopRuleName(*options.until);
   return text.str();
 }

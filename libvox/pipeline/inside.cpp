@@ -1,0 +1,101 @@
+// What is inside the objects of a scene.
+
+#include "libvox/pipeline/inside.h"
+
+#include "libvox/core/error.h"
+#include "libvox/pipeline/components.h"
+#include "libvox/pipeline/refine.h"
+#include "libvox/pipeline/refined_polygons.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "libvox/volume/fill.h"
+#include "libvox/volume/winding.h"
+
+#include <algorithm>
+#include <functional>
+#include <sstream>
+#include <utility>
+
+namespace vox {
+namespace {
+
+/// "jack: 2 of its 3 components are open, the first of 42 faces at (1, 0, 0)".
+std::string describeOpen(const PreparedSurface& surface, const std::vector<Component>& components,
+                         const GridTransform& transform) {
+  const auto hasNoInside = [](const Component& c) { return c.side == Component::Side::kNoInside; };
+  const auto count = std::count_if(components.begin(), components.end(), hasNoInside);
+  if (count == 0) return {};
+  const Component& first = *std::find_if(components.begin(), components.end(), hasNoInside);
+  const bool open = first.boundaryCorner != kNone;
+  const PolygonMesh& mesh = surface.base.mesh;
+  const Index corner = open ? first.boundaryCorner : mesh.faceOffsets[first.faces[0]];
+  const Vec3d at = mesh.points[mesh.faceVertices[corner]] * transform.voxelSize;
+  std::ostringstream text;
+  text << surface.name << ": " << count << " of its " << components.size() << " component"
+       << (components.size() == 1 ? "" : "s") << (count == 1 ? " has" : " have")
+       << " no inside; the first, of " << first.faces.size() << " face"
+       << (first.faces.size() == 1 ? "" : "s") << ", is " << (open ? "open" : "one-sided")
+       << " at (" << at.x() << ", " << at.y() << ", " << at.z() << ")";
+  return text.str();
+}
+
+/// The faces of `level` that descend from components of a side, as polygons.
+PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Component>& components,
+                       Component::Side side, const MemoryBudget& budget, const Progress& progress) {
+  std::vector<Index> faces;
+  for (const Component& component : components)
+    if (component.side == side)
+      faces.insert(faces.end(), component.faces.begin(), component.faces.end());
+  if (faces.empty()) return {};
+  SubdivisionLevel base = baseLevel(submeshOf(surface.base.mesh, faces));
+  if (surface.until.levels) {
+    Progress unwatched;
+    return trianglesAndQuads(
+        subdividedWithin(budget, std::move(base), *surface.until.levels, unwatched).mesh);
+  }
+  constexpr double kTolerance = 0.25;
+  return refinedPolygons(std::move(base), kTolerance, budget, progress);
+}
+
+bool hasCavity(const std::vector<Component>& components) {
+  return std::any_of(components.begin(), components.end(),
+                     [](const Component& c) { return c.side == Component::Side::kIn; });
+}
+
+}  // namespace
+
+void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
+                   const GridTransform& transform, std::vector<std::string>& warnings) {
+  const std::string open = describeOpen(surface, componentsOf(surface.base), transform);
+  if (open.empty()) return;
+  if (openMesh == OpenMesh::kError)
+    throw MeshError(open + "; close it, or use --open-mesh " + allNamesIn(kOpenMeshNames));
+  warnings.push_back(open);
+}
+
+openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& black,
+                               std::span<const PreparedSurface> surfaces,
+                               const MemoryBudget& budget, const Progress& progress) {
+  std::vector<std::vector<Component>> components;
+  for (const PreparedSurface& surface : surfaces) components.push_back(componentsOf(surface.base));
+  AreCavities areCavities;
+  const auto areInCavities = [&](std::span<const openvdb::Coord> voxels) {
+    std::vector<int> inward(voxels.size(), 0);
+    std::vector<int> outward(voxels.size(), 0);
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+      for (const auto& [side, sum] :
+           {std::pair(Component::Side::kIn, &inward), std::pair(Component::Side::kOut, &outward)}) {
+        const PolygonMesh polygons = polygonsOf(surfaces[i], components[i], side, budget, progress);
+        const std::vector<int> windings = windingNumbers(polygons, voxels);
+        std::transform(sum->begin(), sum->end(), windings.begin(), sum->begin(), std::plus<>());
+      }
+    std::vector<bool> cavities(voxels.size());
+    for (std::size_t v = 0; v < voxels.size(); ++v)
+      cavities[v] = inward[v] < 0 && outward[v] + inward[v] <= 0;
+    return cavities;
+  };
+  if (std::any_of(components.begin(), components.end(), hasCavity)) areCavities = areInCavities;
+  progress.check();
+  return filled(black, areCavities);
+}
+
+}  // namespace vox
