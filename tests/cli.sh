@@ -245,6 +245,15 @@ expect 3 'good: 1 of its 1 component has no inside; the first, of 1 face, is ope
 expect 0 '' convert good.obj -o good.vdb --fill solid --dim 16
 grep -q 'warning: good: 1 of its 1 component has no inside' stderr || fail "open: $(cat stderr)"
 
+for wrong in '--compression lzma' '--target maya' '--up x'; do
+  # shellcheck disable=SC2086
+  expect 2 "${wrong% *} must be one of .*, not '${wrong#* }'" convert good.obj -o out.vdb $wrong
+done
+printf '[convert]\nhalf = true\ntarget = "houdini"\nup = "z"\ncompression = "zip"\n[[object]]\n%s\n' "$cube" >file.toml
+expect 0 'active voxels' convert file.toml -o file.vdb --dim 32
+expect 0 'active voxels' convert file.toml -o file2.vdb --dim 32 --half=false --compression none
+[ "$(stat -c %s file.vdb)" -lt "$(stat -c %s file2.vdb)" ] || fail "half floats and zip do not save space"
+
 # Faults of a mesh are repaired, and told.
 expect 0 '' convert winding.obj -o winding.vdb --dim 8
 grep -q 'warning: winding: dropped 1 duplicate face' stderr || fail "no word of the repair: $(cat stderr)"

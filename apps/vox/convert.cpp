@@ -144,6 +144,7 @@ Action addConvert(CLI::App& app) {
       ->type_name("LIST")
       ->group("Output");
   addVolumeOptions(*command, options->volume);
+  addFileOptions(*command, options->volume);
   addSubmeshOptions(*command, options->submeshes);
   command
       ->add_option("--report", options->report,

@@ -186,10 +186,41 @@ void addVolumeOptions(CLI::App& command, VolumeArguments& arguments) {
       ->group("Output");
 }
 
+void addFileOptions(CLI::App& command, VolumeArguments& arguments) {
+  command
+      .add_flag_function(
+          "--half", [&arguments](std::int64_t count) { arguments.half = count > 0; },
+          "Write values as floats of 16 bits (default: the scene's, or 32 bits)")
+      ->group("Output");
+  command
+      .add_option("--compression", arguments.compression,
+                  "How values are packed: blosc is fast, zip slow, both without loss (default: the "
+                  "scene's, or blosc)")
+      ->type_name("blosc|zip|none")
+      ->group("Output");
+  command
+      .add_option("--target", arguments.target,
+                  "The program that will read the file: decides names of grids and which way is "
+                  "up; blender-3.4 moves grids by the half voxel that this version is off "
+                  "(default: the scene's, or blender)")
+      ->type_name("blender|blender-3.4|houdini")
+      ->group("Output");
+  command
+      .add_option("--up", arguments.up,
+                  "The axis of the input that points up: turned to where the target has it, z in "
+                  "Blender, y in Houdini (default: the scene's, or nothing is turned)")
+      ->type_name("y|z")
+      ->group("Output");
+}
+
 VolumeOptions parseVolume(const VolumeArguments& arguments) {
   VolumeOptions volume;
   volume.fill = parseNamed("--fill", kFillNames, arguments.fill);
   volume.openMesh = parseNamed("--open-mesh", kOpenMeshNames, arguments.openMesh);
+  volume.compression = parseNamed("--compression", kCompressionNames, arguments.compression);
+  volume.target = parseNamed("--target", kTargetNames, arguments.target);
+  volume.up = parseNamed("--up", kUpAxisNames, arguments.up);
+  volume.half = arguments.half;
   volume.gain = arguments.gain;
   return volume;
 }

@@ -58,13 +58,18 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
 
-/// --fill, --gain and --open-mesh, as typed.
+/// --fill, --gain, --open-mesh, --half, --compression, --target and --up, as typed.
 struct VolumeArguments {
   std::string fill;
   std::string openMesh;
+  std::string compression;
+  std::string target;
+  std::string up;
   std::optional<double> gain;
+  std::optional<bool> half;
 };
 void addVolumeOptions(CLI::App& command, VolumeArguments& arguments);
+void addFileOptions(CLI::App& command, VolumeArguments& arguments);
 
 /// What they mean.
 /// @throws UsageError

@@ -13,7 +13,7 @@ enum class GridKind {
   kMask,     ///< the black voxels
 };
 
-/// Name in files, scenes and on the command line: "density".
+/// Name in scenes and on the command line: "density".
 std::string gridName(GridKind kind);
 
 /// Grid of that name, or nothing.

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "libvox/core/names.h"
+#include "libvox/grid/grid_kind.h"
+#include "libvox/grid/transform.h"
 
 #include <optional>
+#include <string>
 
 namespace vox {
 
@@ -22,15 +25,44 @@ enum class OpenMesh {
 inline constexpr NameTable<OpenMesh, 2> kOpenMeshNames = {
     {{OpenMesh::kError, "error"}, {OpenMesh::kSurface, "surface"}}};
 
+/// How the values of a file are packed, without loss.
+enum class Compression { kBlosc, kZip, kPlain };
+inline constexpr NameTable<Compression, 3> kCompressionNames = {
+    {{Compression::kBlosc, "blosc"}, {Compression::kZip, "zip"}, {Compression::kPlain, "none"}}};
+
+/// The program that a file is for.
+enum class Target {
+  kBlender,    ///< z is up
+  kBlender34,  ///< besides, moved by half a voxel: Blender 3.4 draws voxel i from i to i + 1
+  kHoudini,    ///< y is up; names of grids as usual there
+};
+inline constexpr NameTable<Target, 3> kTargetNames = {{{Target::kBlender, "blender"},
+                                                       {Target::kBlender34, "blender-3.4"},
+                                                       {Target::kHoudini, "houdini"}}};
+
+/// The axis of the input that points up.
+enum class UpAxis { kY, kZ };
+inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}}};
+
 /// How to make volumes, as far as somebody said.
 struct VolumeOptions {
-  std::optional<Fill> fill;          ///< default: kSurface
-  std::optional<double> gain;        ///< value of `density` at its voxels; default 1
-  std::optional<OpenMesh> openMesh;  ///< default: kSurface
+  std::optional<Fill> fill;                ///< default: kSurface
+  std::optional<double> gain;              ///< value of `density` at its voxels; default 1
+  std::optional<OpenMesh> openMesh;        ///< default: kSurface
+  std::optional<bool> half;                ///< default: false: values are floats of 32 bits
+  std::optional<Compression> compression;  ///< default: kBlosc, if OpenVDB has it
+  std::optional<Target> target;            ///< default: kBlender
+  std::optional<UpAxis> up;                ///< default: up as the target has it, so no turning
 };
 
 /// What `first` says, and `second` where it is silent.
 VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second);
+
+/// Name of a grid in a file.
+std::string gridNameFor(GridKind kind, const VolumeOptions& options);
+
+/// How an input is turned about the x axis on its way into the grid.
+Turn turnOf(const VolumeOptions& options);
 
 /// @throws UsageError  gain is not a positive number that a float holds
 void requireValid(const VolumeOptions& options);

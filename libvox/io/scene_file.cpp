@@ -153,6 +153,10 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
   VolumeOptions volume;
   readNamed(text, table, "fill", kFillNames, volume.fill);
   readNamed(text, table, "open_mesh", kOpenMeshNames, volume.openMesh);
+  readNamed(text, table, "compression", kCompressionNames, volume.compression);
+  readNamed(text, table, "target", kTargetNames, volume.target);
+  readNamed(text, table, "up", kUpAxisNames, volume.up);
+  if (const auto* half = table.get("half")) volume.half = requireBoolean(text, *half, "half");
   if (const auto* gain = table.get("gain")) {
     volume.gain = requireNumber(text, *gain, "gain");
     if (!(*volume.gain > 0)) text.fail(*gain, "gain must be positive");
@@ -161,9 +165,9 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
 }
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(
-      text, table, "[convert]",
-      {"dim", "voxel_size", "grids", "fill", "gain", "open_mesh", "until", "weld", "strict"});
+  requireKnownKeys(text, table, "[convert]",
+                   {"dim", "voxel_size", "grids", "fill", "gain", "open_mesh", "half",
+                    "compression", "target", "up", "until", "weld", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));

@@ -27,7 +27,7 @@ struct Scene {
   std::optional<std::vector<GridKind>> grids;
   std::optional<double> weldTolerance;       ///< [convert] weld: world units
   std::optional<bool> strict;                ///< [convert] strict: no repair
-  VolumeOptions volume;                      ///< [convert] fill, gain, open_mesh
+  VolumeOptions volume;                      ///< [convert] fill and what else it has
   std::optional<StopRule> until;             ///< [convert] until: of objects that say nothing
   std::vector<SceneObject> objects;          ///< at least one
   std::vector<std::filesystem::path> files;  ///< the input file, then the meshes it names

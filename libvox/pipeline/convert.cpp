@@ -60,8 +60,9 @@ GridTransform chooseTransform(const Box& box, const Scene& scene, const ConvertO
   const bool fromOptions = options.dim || options.voxelSize;
   const auto voxelSize = fromOptions ? options.voxelSize : scene.voxelSize;
   const int dim = (fromOptions ? options.dim : scene.dim).value_or(kDefaultDim);
-  const GridTransform transform =
+  GridTransform transform =
       voxelSize ? transformForVoxelSize(*voxelSize) : transformForDim(box, dim);
+  transform.turn = turnOf(overriding(options.volume, scene.volume));
   requireInRange(box, transform);
   return transform;
 }
@@ -226,7 +227,6 @@ openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<const PreparedS
   }
   budget.take(grid.memoryBytes(), "the grid", kScatteredAdvice);
   auto mask = openvdb::MaskGrid::create(grid.takeTree());
-  mask->setName(gridName(GridKind::kMask));
   mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
   return mask;
 }
@@ -257,12 +257,17 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
   const openvdb::MaskGrid::Ptr mask =
       markObjects(scene, surfaces, options, transform, areas, budget, progress, report);
 
+  result.compression = volume.compression;
+  if (volume.target == Target::kBlender34)
+    mask->transform().postTranslate(openvdb::Vec3d(-transform.voxelSize / 2));
   progress.begin("grids", workOfGrids(areas, kinds));
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, options, transform, report);
   for (const GridKind kind : kinds) {
     openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, volume, budget, progress);
     progress.check();
+    grid->setName(gridNameFor(kind, volume));
+    grid->setSaveFloatAsHalf(volume.half.value_or(false));
     for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
       grid->insertMeta(entry->first, *entry->second);
     result.grids.push_back(std::move(grid));
@@ -274,7 +279,9 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
 
 Conversion convert(const Scene& scene, const ConvertOptions& options) {
   requireStopRules(scene, options);
-  requireValid(overriding(options.volume, scene.volume));
+  const VolumeOptions volume = overriding(options.volume, scene.volume);
+  requireValid(volume);
+  if (volume.compression) requireCompression(*volume.compression);
   requireValidScene(scene);
   Progress unwatched;
   Progress& progress = options.run.progress != nullptr ? *options.run.progress : unwatched;
@@ -284,10 +291,11 @@ Conversion convert(const Scene& scene, const ConvertOptions& options) {
 void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress) {
   openvdb::MetaMap metadata;
   metadata.insertMeta("creator", openvdb::StringMetadata(std::string("vox ") + version()));
-  if (progress == nullptr) return writeVdb(stream, conversion.grids, metadata);
+  if (progress == nullptr)
+    return writeVdb(stream, conversion.grids, metadata, conversion.compression);
   progress->beginLast("write");
   WatchedStream watched(*stream.rdbuf(), *progress, expectedBytes(conversion.grids));
-  writeVdb(watched, conversion.grids, metadata);
+  writeVdb(watched, conversion.grids, metadata, conversion.compression);
 }
 
 void writeGrids(const std::filesystem::path& file, const Conversion& conversion, bool overwrite,

@@ -71,6 +71,7 @@ struct ConvertReport {
 
 struct Conversion {
   std::vector<std::shared_ptr<openvdb::GridBase>> grids;  ///< one transform, in the order asked for
+  std::optional<Compression> compression;                 ///< of their file; default: as writeVdb
   ConvertReport report;
 };
 
@@ -81,7 +82,8 @@ struct Conversion {
 /// DESIGN section 9. The result does not depend on the number of threads, nor on how the surface is
 /// cut into submeshes. The progress keeps a share for writing the grids.
 ///
-/// @throws UsageError  dim, voxel size, number of threads, levels, smoothing or weld tolerance is
+/// @throws UsageError  dim, voxel size, gain, number of threads, levels, smoothing or weld
+/// tolerance is
 ///   nonsense; 26-separating voxels are asked for where an object is not to stop at a level
 /// @throws InputError  the input has no extent and no voxel size is given
 /// @throws MeshError   as prepare (refine.h); an object has no inside, and one is asked for

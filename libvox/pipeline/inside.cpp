@@ -28,7 +28,7 @@ std::string describeOpen(const PreparedSurface& surface, const std::vector<Compo
   const bool open = first.boundaryCorner != kNone;
   const PolygonMesh& mesh = surface.base.mesh;
   const Index corner = open ? first.boundaryCorner : mesh.faceOffsets[first.faces[0]];
-  const Vec3d at = mesh.points[mesh.faceVertices[corner]] * transform.voxelSize;
+  const Vec3d at = transform.toWorld(mesh.points[mesh.faceVertices[corner]]);
   std::ostringstream text;
   text << surface.name << ": " << count << " of its " << components.size() << " component"
        << (components.size() == 1 ? "" : "s") << (count == 1 ? " has" : " have")

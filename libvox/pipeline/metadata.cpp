@@ -28,6 +28,9 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
   if (options.volume.gain) text << " gain=" << *options.volume.gain;
   if (options.volume.openMesh)
     text << " open-mesh=" << nameIn(kOpenMeshNames, *options.volume.openMesh);
+  if (options.volume.half.value_or(false)) text << " half";
+  if (options.volume.target) text << " target=" << nameIn(kTargetNames, *options.volume.target);
+  if (options.volume.up) text << " up=" << nameIn(kUpAxisNames, *options.volume.up);
   if (options.until) text << " until=" << stopRuleName(*options.until);
   return text.str();
 }
