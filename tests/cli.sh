@@ -239,7 +239,7 @@ assert json.load(open("solid.json"))["options"]["fill"] is None
 PY
 expect 2 "--fill must be one of surface, solid, not 'half'" convert good.obj -o out.vdb --fill half
 expect 2 "--open-mesh must be one of" convert good.obj -o out.vdb --open-mesh maybe
-expect 2 'gain must be positive' convert good.obj -o out.vdb --gain 0
+expect 2 'gain must lie between' convert good.obj -o out.vdb --gain 0
 expect 2 'gain' convert good.obj -o out.vdb --gain lots
 expect 3 'good: 1 of its 1 component has no inside; the first, of 1 face, is open at .*--open-mesh' convert good.obj -o out.vdb --fill solid --open-mesh error
 expect 0 '' convert good.obj -o good.vdb --fill solid --dim 16
@@ -253,6 +253,14 @@ printf '[convert]\nhalf = true\ntarget = "houdini"\nup = "z"\ncompression = "zip
 expect 0 'active voxels' convert file.toml -o file.vdb --dim 32
 expect 0 'active voxels' convert file.toml -o file2.vdb --dim 32 --half=false --compression none
 [ "$(stat -c %s file.vdb)" -lt "$(stat -c %s file2.vdb)" ] || fail "half floats and zip do not save space"
+
+printf '[convert]\ngrids = ["surface"]\nband = 4\ntolerance = 0.2\n[[object]]\n%s\n' "$cube" >level.toml
+expect 0 'active voxels' convert level.toml -o level.vdb --dim 32
+"$vox" info level.vdb | grep -q 'grid surface: .*level set' || fail "no level set"
+expect 0 'active voxels' convert level.toml -o level.vdb --dim 32 --grids surface,density,mask --band 3 --force
+expect 2 'the band must lie between 1 and 1000, not 0.2' convert good.obj -o out.vdb --band 0.2 --grids surface
+expect 2 'the tolerance must lie' convert good.obj -o out.vdb --tolerance 0 --grids surface
+expect 4 'memory' convert "$scenes/cube.toml" -o out.vdb --grids surface --dim 3000 --max-memory 256M
 
 # Faults of a mesh are repaired, and told.
 expect 0 '' convert winding.obj -o winding.vdb --dim 8

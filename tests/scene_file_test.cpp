@@ -153,7 +153,7 @@ TEST_CASE("what a scene gets wrong is named with line and column", "[scene][erro
   checkRefused("[convert]\nfill = 'half'\n", ":2:8:", "fill must be one of surface, solid");
   checkRefused("[convert]\nfill = 3\n", ":2:8:", "fill must be a string");
   checkRefused("[convert]\nopen_mesh = 'no'\n", ":2:13:", "open_mesh must be one of error");
-  checkRefused("[convert]\ngain = 0\n", ":2:8:", "gain must be positive");
+  checkRefused("[convert]\ngain = 'x'\n", ":2:8:", "gain must be a number");
   checkRefused("[convert]\nuntil = {}\n", ":2:9:", "until must be \"voxel\" or { levels");
   checkRefused("[convert]\nuntil = { depth = 3 }\n", ":2:11:", "unknown key 'depth' in until");
   checkRefused("[convert]\nuntil = { levels = 31 }\n", ":2:20:", "between 0 and 30, not 31");

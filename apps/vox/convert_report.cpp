@@ -62,6 +62,8 @@ Json toJson(const VolumeOptions& volume) {
   return {{"fill", orNull(kFillNames, volume.fill)},
           {"gain", orNull(volume.gain)},
           {"open_mesh", orNull(kOpenMeshNames, volume.openMesh)},
+          {"band", orNull(volume.band)},
+          {"tolerance", orNull(volume.tolerance)},
           {"half", orNull(volume.half)},
           {"compression", orNull(kCompressionNames, volume.compression)},
           {"target", orNull(kTargetNames, volume.target)},

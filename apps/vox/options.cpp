@@ -179,10 +179,25 @@ void addVolumeOptions(CLI::App& command, VolumeArguments& arguments) {
       ->type_name("G")
       ->group("Output");
   command
-      .add_option("--open-mesh", arguments.openMesh,
-                  "Where an inside is asked for, a component that has none is an error, or stays a "
-                  "surface (default: the scene's, or surface)")
-      ->type_name("error|surface")
+      .add_option(
+          "--open-mesh", arguments.openMesh,
+          "Where an inside is asked for, a component that has none is an error; or stays a "
+          "surface, in the grid surface a sheet one voxel thick; or gives distances without "
+          "sign there (default: the scene's, or surface)")
+      ->type_name("error|surface|unsigned")
+      ->group("Output");
+  command
+      .add_option_function<double>(
+          "--band", [&arguments](double band) { arguments.band = band; },
+          "Half width of the grid surface, in voxels (default: the scene's, or 3)")
+      ->type_name("W")
+      ->group("Output");
+  command
+      .add_option_function<double>(
+          "--tolerance", [&arguments](double distance) { arguments.tolerance = distance; },
+          "How far the polygons that the grid surface is made from may lie off the smooth surface, "
+          "in voxels (default: the scene's, or 0.05)")
+      ->type_name("T")
       ->group("Output");
 }
 
@@ -222,6 +237,8 @@ VolumeOptions parseVolume(const VolumeArguments& arguments) {
   volume.up = parseNamed("--up", kUpAxisNames, arguments.up);
   volume.half = arguments.half;
   volume.gain = arguments.gain;
+  volume.band = arguments.band;
+  volume.tolerance = arguments.tolerance;
   return volume;
 }
 

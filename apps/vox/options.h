@@ -58,7 +58,8 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
 
-/// --fill, --gain, --open-mesh, --half, --compression, --target and --up, as typed.
+/// --fill, --gain, --open-mesh, --band, --tolerance, --half, --compression, --target and --up, as
+/// typed.
 struct VolumeArguments {
   std::string fill;
   std::string openMesh;
@@ -66,6 +67,8 @@ struct VolumeArguments {
   std::string target;
   std::string up;
   std::optional<double> gain;
+  std::optional<double> band;
+  std::optional<double> tolerance;
   std::optional<bool> half;
 };
 void addVolumeOptions(CLI::App& command, VolumeArguments& arguments);

@@ -7,7 +7,7 @@
 namespace vox {
 namespace {
 
-constexpr std::array<GridKind, 2> kAll = {GridKind::kDensity, GridKind::kMask};
+constexpr std::array kAll = {GridKind::kDensity, GridKind::kMask, GridKind::kSurface};
 
 }  // namespace
 
@@ -17,6 +17,8 @@ std::string gridName(GridKind kind) {
       return "density";
     case GridKind::kMask:
       return "mask";
+    case GridKind::kSurface:
+      return "surface";
   }
   return {};
 }

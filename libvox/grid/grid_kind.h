@@ -11,6 +11,7 @@ namespace vox {
 enum class GridKind {
   kDensity,  ///< Float fog volume, 1 at black voxels
   kMask,     ///< the black voxels
+  kSurface,  ///< Float level set, narrow band of distances to the surface
 };
 
 /// Name in scenes and on the command line: "density".
@@ -19,7 +20,7 @@ std::string gridName(GridKind kind);
 /// Grid of that name, or nothing.
 std::optional<GridKind> gridNamed(std::string_view name);
 
-/// "density, mask": for messages.
+/// "density, mask, surface": for messages.
 std::string allGridNames();
 
 }  // namespace vox

@@ -7,6 +7,17 @@
 #include <sstream>
 
 namespace vox {
+namespace {
+
+void requireBetween(const std::optional<double>& value, double low, double high,
+                    const std::string& name) {
+  if (!value || (*value >= low && *value <= high)) return;
+  std::ostringstream text;
+  text << name << " must lie between " << low << " and " << high << ", not " << *value;
+  throw UsageError(text.str());
+}
+
+}  // namespace
 
 VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second) {
   VolumeOptions all = first;
@@ -16,6 +27,8 @@ VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second
   fillIn(&VolumeOptions::fill);
   fillIn(&VolumeOptions::gain);
   fillIn(&VolumeOptions::openMesh);
+  fillIn(&VolumeOptions::band);
+  fillIn(&VolumeOptions::tolerance);
   fillIn(&VolumeOptions::half);
   fillIn(&VolumeOptions::compression);
   fillIn(&VolumeOptions::target);
@@ -37,12 +50,9 @@ Turn turnOf(const VolumeOptions& options) {
 }
 
 void requireValid(const VolumeOptions& options) {
-  constexpr double kSmallest = 1e-30;
-  constexpr double kLargest = 1e30;
-  if (!options.gain || (*options.gain >= kSmallest && *options.gain <= kLargest)) return;
-  std::ostringstream text;
-  text << "the gain must be positive and at most 1e30, not " << *options.gain;
-  throw UsageError(text.str());
+  requireBetween(options.gain, 1e-30, 1e30, "the gain");
+  requireBetween(options.band, 1, 1000, "the band");
+  requireBetween(options.tolerance, 1e-4, 10, "the tolerance");
 }
 
 }  // namespace vox

@@ -19,11 +19,13 @@ inline constexpr NameTable<Fill, 2> kFillNames = {
 
 /// What a component that has no inside (one with boundary, or one-sided) is to a volume.
 enum class OpenMesh {
-  kError,    ///< a reason to refuse the object
-  kSurface,  ///< a surface: `density` has its voxels
+  kError,     ///< a reason to refuse the object
+  kSurface,   ///< a surface: `density` has its voxels, `surface` a sheet one voxel thick
+  kUnsigned,  ///< the same, but `surface` has distances without sign
 };
-inline constexpr NameTable<OpenMesh, 2> kOpenMeshNames = {
-    {{OpenMesh::kError, "error"}, {OpenMesh::kSurface, "surface"}}};
+inline constexpr NameTable<OpenMesh, 3> kOpenMeshNames = {{{OpenMesh::kError, "error"},
+                                                           {OpenMesh::kSurface, "surface"},
+                                                           {OpenMesh::kUnsigned, "unsigned"}}};
 
 /// How the values of a file are packed, without loss.
 enum class Compression { kBlosc, kZip, kPlain };
@@ -46,10 +48,12 @@ inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxi
 
 /// How to make volumes, as far as somebody said.
 struct VolumeOptions {
-  std::optional<Fill> fill;                ///< default: kSurface
-  std::optional<double> gain;              ///< value of `density` at its voxels; default 1
-  std::optional<OpenMesh> openMesh;        ///< default: kSurface
-  std::optional<bool> half;                ///< default: false: values are floats of 32 bits
+  std::optional<Fill> fill;          ///< default: kSurface
+  std::optional<double> gain;        ///< value of `density` at its voxels; default 1
+  std::optional<OpenMesh> openMesh;  ///< default: kSurface
+  std::optional<double> band;        ///< half width of `surface` in voxels; default 3
+  std::optional<double> tolerance;   ///< of the polygons it is made from, in voxels; default 0.05
+  std::optional<bool> half;          ///< default: false: values are floats of 32 bits
   std::optional<Compression> compression;  ///< default: kBlosc, if OpenVDB has it
   std::optional<Target> target;            ///< default: kBlender
   std::optional<UpAxis> up;                ///< default: up as the target has it, so no turning
@@ -64,7 +68,7 @@ std::string gridNameFor(GridKind kind, const VolumeOptions& options);
 /// How an input is turned about the x axis on its way into the grid.
 Turn turnOf(const VolumeOptions& options);
 
-/// @throws UsageError  gain is not a positive number that a float holds
+/// @throws UsageError  a number is out of range
 void requireValid(const VolumeOptions& options);
 
 }  // namespace vox

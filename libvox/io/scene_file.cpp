@@ -157,17 +157,17 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
   readNamed(text, table, "target", kTargetNames, volume.target);
   readNamed(text, table, "up", kUpAxisNames, volume.up);
   if (const auto* half = table.get("half")) volume.half = requireBoolean(text, *half, "half");
-  if (const auto* gain = table.get("gain")) {
-    volume.gain = requireNumber(text, *gain, "gain");
-    if (!(*volume.gain > 0)) text.fail(*gain, "gain must be positive");
-  }
+  if (const auto* gain = table.get("gain")) volume.gain = requireNumber(text, *gain, "gain");
+  if (const auto* band = table.get("band")) volume.band = requireNumber(text, *band, "band");
+  if (const auto* tolerance = table.get("tolerance"))
+    volume.tolerance = requireNumber(text, *tolerance, "tolerance");
   return volume;
 }
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[convert]",
-                   {"dim", "voxel_size", "grids", "fill", "gain", "open_mesh", "half",
-                    "compression", "target", "up", "until", "weld", "strict"});
+                   {"dim", "voxel_size", "grids", "fill", "gain", "open_mesh", "band", "tolerance",
+                    "half", "compression", "target", "up", "until", "weld", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));

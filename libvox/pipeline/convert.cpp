@@ -140,10 +140,18 @@ void plan(const Scene& scene, const ConvertOptions& options, std::span<const dou
 
 // Conversion
 
+/// Whether a grid is made from black voxels.
+bool needsVoxels(std::span<const GridKind> kinds) {
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [](GridKind kind) { return kind != GridKind::kSurface; });
+}
+
 /// Whether a grid tells inside from outside.
 bool needsInside(std::span<const GridKind> kinds, const VolumeOptions& volume) {
-  return volume.fill == Fill::kSolid &&
-         std::find(kinds.begin(), kinds.end(), GridKind::kDensity) != kinds.end();
+  return std::any_of(kinds.begin(), kinds.end(), [&](GridKind kind) {
+    return kind == GridKind::kSurface ||
+           (kind == GridKind::kDensity && volume.fill == Fill::kSolid);
+  });
 }
 
 /// Notes what preparation did, and refuses vertices that it moved out of the range of the grid.
@@ -231,6 +239,16 @@ openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<const PreparedS
   return mask;
 }
 
+/// A grid with its name and metadata.
+openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
+                                const VolumeOptions& volume, const openvdb::MetaMap& metadata) {
+  grid->setName(gridNameFor(kind, volume));
+  grid->setSaveFloatAsHalf(volume.half.value_or(false));
+  for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
+    grid->insertMeta(entry->first, *entry->second);
+  return grid;
+}
+
 Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progress& progress) {
   openvdb::initialize();
   Conversion result;
@@ -254,8 +272,9 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
     for (const PreparedSurface& surface : surfaces)
       requireInside(surface, volume.openMesh.value_or(OpenMesh::kSurface), transform,
                     report.warnings);
+  const auto toMark = needsVoxels(kinds) ? std::span(surfaces) : std::span<const PreparedSurface>();
   const openvdb::MaskGrid::Ptr mask =
-      markObjects(scene, surfaces, options, transform, areas, budget, progress, report);
+      markObjects(scene, toMark, options, transform, areas, budget, progress, report);
 
   result.compression = volume.compression;
   if (volume.target == Target::kBlender34)
@@ -263,15 +282,10 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
   progress.begin("grids", workOfGrids(areas, kinds));
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, options, transform, report);
-  for (const GridKind kind : kinds) {
-    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, volume, budget, progress);
-    progress.check();
-    grid->setName(gridNameFor(kind, volume));
-    grid->setSaveFloatAsHalf(volume.half.value_or(false));
-    for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
-      grid->insertMeta(entry->first, *entry->second);
-    result.grids.push_back(std::move(grid));
-  }
+  for (const GridKind kind : kinds)
+    result.grids.push_back(
+        finished(makeGrid(kind, mask, surfaces, volume, budget, progress), kind, volume, metadata));
+  if (!needsVoxels(kinds)) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include "libvox/pipeline/grids.h"
 
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/distance.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
@@ -77,7 +78,10 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mas
                                 std::span<const PreparedSurface> surfaces,
                                 const VolumeOptions& volume, MemoryBudget& budget,
                                 const Progress& progress) {
+  progress.check();
   if (kind == GridKind::kMask) return mask;
+  if (kind == GridKind::kSurface)
+    return surfaceGrid(surfaces, volume, mask->transform(), budget, progress);
   openvdb::MaskTree::Ptr voxels = mask->treePtr();
   if (volume.fill.value_or(Fill::kSurface) == Fill::kSolid) {
     budget.require(bytesOfFilling(*voxels), "the inside", kScatteredAdvice);

@@ -5,15 +5,24 @@
 #include "libvox/grid/grid_kind.h"
 #include "libvox/grid/transform.h"
 #include "libvox/grid/volume_options.h"
-#include "libvox/pipeline/prepared_surface.h"
+#include "libvox/mesh/stop_rule.h"
+#include "libvox/subdivide/level.h"
 
 #include <openvdb/openvdb.h>
 
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace vox {
+
+/// An object as it is voxelized, in index space.
+struct PreparedSurface {
+  std::string name;
+  SubdivisionLevel base;
+  StopRule until;
+};
 
 /// What to do about a grid that is too large.
 inline constexpr const char* kScatteredAdvice =

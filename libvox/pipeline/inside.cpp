@@ -4,13 +4,16 @@
 
 #include "libvox/core/error.h"
 #include "libvox/pipeline/components.h"
+#include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/limit_polygons.h"
 #include "libvox/pipeline/refine.h"
-#include "libvox/pipeline/refined_polygons.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/volume/fill.h"
 #include "libvox/volume/winding.h"
+#include "libvox/voxelize/triangulate.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <sstream>
 #include <utility>
@@ -38,22 +41,30 @@ std::string describeOpen(const PreparedSurface& surface, const std::vector<Compo
   return text.str();
 }
 
-/// The faces of `level` that descend from components of a side, as polygons.
-PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Component>& components,
-                       Component::Side side, const MemoryBudget& budget, const Progress& progress) {
+std::vector<Index> facesOf(const std::vector<Component>& components, Component::Side side) {
   std::vector<Index> faces;
   for (const Component& component : components)
     if (component.side == side)
       faces.insert(faces.end(), component.faces.begin(), component.faces.end());
-  if (faces.empty()) return {};
-  SubdivisionLevel base = baseLevel(submeshOf(surface.base.mesh, faces));
-  if (surface.until.levels) {
-    Progress unwatched;
-    return trianglesAndQuads(
-        subdividedWithin(budget, std::move(base), *surface.until.levels, unwatched).mesh);
+  return faces;
+}
+
+/// The polygons of a level, as they are voxelized.
+PolygonMesh triangulated(const PolygonMesh& mesh) {
+  PolygonMesh cut;
+  cut.points = mesh.points;
+  TriangulationReport report;
+  std::vector<Vec3d> corners;
+  std::vector<std::array<Index, 3>> triangles;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto face = mesh.face(f);
+    corners.clear();
+    triangles.clear();
+    for (const Index v : face) corners.push_back(mesh.points[v]);
+    triangulate(corners, triangles, report);
+    for (const auto& [i, j, k] : triangles) cut.addFace(std::array{face[i], face[j], face[k]});
   }
-  constexpr double kTolerance = 0.25;
-  return refinedPolygons(std::move(base), kTolerance, budget, progress);
+  return cut;
 }
 
 bool hasCavity(const std::vector<Component>& components) {
@@ -62,6 +73,23 @@ bool hasCavity(const std::vector<Component>& components) {
 }
 
 }  // namespace
+
+PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>& faces,
+                       double tolerance, const MemoryBudget& budget, const Progress& progress) {
+  if (faces.empty()) return {};
+  SubdivisionLevel base;
+  if (faces.size() == surface.base.mesh.faceCount()) {
+    base = surface.base;
+  } else {
+    const bool extends = surface.base.boundary == BoundaryStage::kExtend;
+    base = baseLevel(submeshOf(surface.base.mesh, faces),
+                     extends ? BoundaryRule::kExtend : BoundaryRule::kFree);
+  }
+  if (!surface.until.levels) return limitPolygons(std::move(base), tolerance, budget, progress);
+  Progress unwatched;
+  return triangulated(
+      subdividedWithin(budget, std::move(base), *surface.until.levels, unwatched).mesh);
+}
 
 void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
                    const GridTransform& transform, std::vector<std::string>& warnings) {
@@ -77,6 +105,7 @@ openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& black,
                                const MemoryBudget& budget, const Progress& progress) {
   std::vector<std::vector<Component>> components;
   for (const PreparedSurface& surface : surfaces) components.push_back(componentsOf(surface.base));
+  constexpr double kTolerance = 0.25;
   AreCavities areCavities;
   const auto areInCavities = [&](std::span<const openvdb::Coord> voxels) {
     std::vector<int> inward(voxels.size(), 0);
@@ -84,7 +113,8 @@ openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& black,
     for (std::size_t i = 0; i < surfaces.size(); ++i)
       for (const auto& [side, sum] :
            {std::pair(Component::Side::kIn, &inward), std::pair(Component::Side::kOut, &outward)}) {
-        const PolygonMesh polygons = polygonsOf(surfaces[i], components[i], side, budget, progress);
+        const PolygonMesh polygons =
+            polygonsOf(surfaces[i], facesOf(components[i], side), kTolerance, budget, progress);
         const std::vector<int> windings = windingNumbers(polygons, voxels);
         std::transform(sum->begin(), sum->end(), windings.begin(), sum->begin(), std::plus<>());
       }

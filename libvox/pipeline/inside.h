@@ -4,7 +4,7 @@
 #include "libvox/core/progress.h"
 #include "libvox/grid/transform.h"
 #include "libvox/grid/volume_options.h"
-#include "libvox/pipeline/prepared_surface.h"
+#include "libvox/mesh/polygon_mesh.h"
 
 #include <openvdb/openvdb.h>
 
@@ -13,6 +13,8 @@
 #include <vector>
 
 namespace vox {
+
+struct PreparedSurface;
 
 /// Checks an object, of which the inside is wanted, for components that have none. kError refuses
 /// them, the others add a warning that says where the first one is open.
@@ -28,5 +30,13 @@ void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
 openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& black,
                                std::span<const PreparedSurface> surfaces,
                                const MemoryBudget& budget, const Progress& progress);
+
+/// Triangles and quads that follow some faces of a surface within the tolerance, or, where it stops
+/// at a level, are the polygons of that level.
+/// @param faces  whole components
+/// @throws LimitError
+/// @throws Cancelled
+PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>& faces,
+                       double tolerance, const MemoryBudget& budget, const Progress& progress);
 
 }  // namespace vox

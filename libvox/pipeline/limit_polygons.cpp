@@ -1,6 +1,6 @@
 // The smooth surface as few polygons: one global level, its vertices halfway to the surface.
 
-#include "libvox/pipeline/refined_polygons.h"
+#include "libvox/pipeline/limit_polygons.h"
 
 #include "libvox/core/parallel.h"
 #include "libvox/mesh/stop_rule.h"
@@ -8,15 +8,18 @@
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/image_vertices.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 namespace vox {
 namespace {
 
-constexpr std::size_t kElementsPerTask = 1024;
+constexpr std::size_t kFacesPerTask = 1024;
 constexpr const char* kAdvice = "use a larger --tolerance or larger voxels, or raise --max-memory";
 
 /// Of every point, its limit: the mean of its image vertices. Of level 1 and more.
@@ -32,37 +35,42 @@ std::vector<Vec3d> limitPoints(const PolygonMesh& mesh, const std::vector<Vec3d>
   return limits;
 }
 
-/// Distance between the middles of the two diagonals of a quad, halved: from the middle of either
-/// to the centroid, which is on the surface.
-double twist(const PolygonMesh& mesh, Index f) {
+/// Area vector of a face (Newell), not normalized.
+Vec3d areaVector(const PolygonMesh& mesh, Index f) {
+  Vec3d sum = Vec3d::Zero();
   const auto face = mesh.face(f);
-  if (face.size() != 4) return 0;
+  for (std::size_t i = 0; i < face.size(); ++i)
+    sum += mesh.points[face[i]].cross(mesh.points[face[(i + 1) % face.size()]]);
+  return sum;
+}
+
+/// How far a face lies from the surface, at most, once its vertices have gone halfway to their
+/// limits: half of what they are off along the normal, and for a quad cut in two, the way from the
+/// middle of a diagonal to the centroid, which is on the surface. Along the surface, vertices may
+/// be off by more: that does no harm.
+double errorOf(const PolygonMesh& mesh, const std::vector<Vec3d>& limits, Index f) {
+  const Vec3d area = areaVector(mesh, f);
+  const double size = area.norm();
+  const Vec3d normal = size > 0 ? Vec3d(area / size) : Vec3d::Zero();
   const auto& p = mesh.points;
-  return (p[face[0]] - p[face[1]] + p[face[2]] - p[face[3]]).norm() / 4;
+  const auto face = mesh.face(f);
+  double error = 0;
+  for (const Index v : face) error = std::max(error, std::abs(normal.dot(p[v] - limits[v])) / 2);
+  if (face.size() != 4) return error;
+  const Vec3d twist = p[face[0]] - p[face[1]] + p[face[2]] - p[face[3]];
+  return std::max(error, std::abs(normal.dot(twist)) / 4);
 }
 
-/// How far the polygons of a level lie from the surface, at most, once its vertices have gone
-/// halfway to their limits.
 double errorOf(const PolygonMesh& mesh, const std::vector<Vec3d>& limits) {
-  const double atVertices =
-      maxOverParts(mesh.pointCount(), kElementsPerTask, [&](std::size_t begin, std::size_t end) {
-        double largest = 0;
-        for (std::size_t v = begin; v != end; ++v)
-          largest = std::max(largest, (mesh.points[v] - limits[v]).norm() / 2);
-        return largest;
-      });
-  const double twisted =
-      maxOverParts(mesh.faceCount(), kElementsPerTask, [&](std::size_t begin, std::size_t end) {
-        double largest = 0;
-        for (std::size_t f = begin; f != end; ++f)
-          largest = std::max(largest, twist(mesh, static_cast<Index>(f)));
-        return largest;
-      });
-  return std::max(atVertices, twisted);
+  return maxOverParts(mesh.faceCount(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
+    double largest = 0;
+    for (std::size_t f = begin; f != end; ++f)
+      largest = std::max(largest, errorOf(mesh, limits, static_cast<Index>(f)));
+    return largest;
+  });
 }
 
-}  // namespace
-
+/// Faces of five and more corners cut into triangles around their centroid.
 PolygonMesh trianglesAndQuads(PolygonMesh mesh) {
   PolygonMesh cut;
   cut.points = std::move(mesh.points);
@@ -82,8 +90,10 @@ PolygonMesh trianglesAndQuads(PolygonMesh mesh) {
   return cut;
 }
 
-PolygonMesh refinedPolygons(SubdivisionLevel base, double tolerance, const MemoryBudget& budget,
-                            const Progress& progress) {
+}  // namespace
+
+PolygonMesh limitPolygons(SubdivisionLevel base, double tolerance, const MemoryBudget& budget,
+                          const Progress& progress) {
   SubdivisionLevel level = std::move(base);
   for (int k = 0;; ++k) {
     progress.check();
