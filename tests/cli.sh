@@ -261,6 +261,42 @@ texture_error "[0-9]+: texture marble: scale must be a number above 0, not '-1'"
 texture_error '[0-9]+: texture marble has no .size.; it has scale' '{ kind = "marble", size = 1 }'
 texture_error '[0-9]+: .*colors must be 2 to 16' '{ kind = "marble", colors = [[1, 0, 0]] }'
 texture_error '[0-9]+: colors must be a number, a text or a list' '{ kind = "marble", colors = [1, [], {}] }'
+# Volumes: the command line goes before the scene.
+printf '[convert]\nfill = "solid"\ngain = 3\n[[object]]\nname = "block"\n%s\n' "$cube" >solid.toml
+expect 0 'active voxels' convert solid.toml -o solid.vdb --dim 64 --report solid.json
+expect 0 'active voxels' convert solid.toml -o shell.vdb --dim 64 --fill surface
+"$vox" info --json solid.vdb shell.vdb >info.json
+python3 - <<'PY' || fail "a solid"
+import json
+solid, shell = (file["grids"][0]["active_voxels"] for file in json.load(open("info.json")))
+# The smoothed cube lies between the ball of the same width and the cube, the shell counts for a bit.
+assert 0.52 * 64**3 < solid < 0.95 * 64**3 and shell < solid / 5, (solid, shell)
+assert json.load(open("solid.json"))["options"]["fill"] is None
+PY
+expect 2 "--fill must be one of surface, solid, not 'half'" convert good.obj -o out.vdb --fill half
+expect 2 "--open-mesh must be one of" convert good.obj -o out.vdb --open-mesh maybe
+expect 2 'gain must lie between' convert good.obj -o out.vdb --gain 0
+expect 2 'gain' convert good.obj -o out.vdb --gain lots
+expect 3 'good: 1 of its 1 component has no inside; the first, of 1 face, is open at .*--open-mesh' convert good.obj -o out.vdb --fill solid --open-mesh error
+expect 0 '' convert good.obj -o good.vdb --fill solid --dim 16
+grep -q 'warning: good: 1 of its 1 component has no inside' stderr || fail "open: $(cat stderr)"
+
+for wrong in '--compression lzma' '--target maya' '--up x'; do
+  # shellcheck disable=SC2086
+  expect 2 "${wrong% *} must be one of .*, not '${wrong#* }'" convert good.obj -o out.vdb $wrong
+done
+printf '[convert]\nhalf = true\ntarget = "houdini"\nup = "z"\ncompression = "zip"\n[[object]]\n%s\n' "$cube" >file.toml
+expect 0 'active voxels' convert file.toml -o file.vdb --dim 32
+expect 0 'active voxels' convert file.toml -o file2.vdb --dim 32 --half=false --compression none
+[ "$(stat -c %s file.vdb)" -lt "$(stat -c %s file2.vdb)" ] || fail "half floats and zip do not save space"
+
+printf '[convert]\ngrids = ["surface"]\nband = 4\ntolerance = 0.2\n[[object]]\n%s\n' "$cube" >level.toml
+expect 0 'active voxels' convert level.toml -o level.vdb --dim 32
+"$vox" info level.vdb | grep -q 'grid surface: .*level set' || fail "no level set"
+expect 0 'active voxels' convert level.toml -o level.vdb --dim 32 --grids surface,density,mask --band 3 --force
+expect 2 'the band must lie between 1 and 1000, not 0.2' convert good.obj -o out.vdb --band 0.2 --grids surface
+expect 2 'the tolerance must lie' convert good.obj -o out.vdb --tolerance 0 --grids surface
+expect 4 'memory' convert "$scenes/cube.toml" -o out.vdb --grids surface --dim 3000 --max-memory 256M
 
 # Faults of a mesh are repaired, and told.
 expect 0 '' convert winding.obj -o winding.vdb --dim 8

@@ -32,6 +32,7 @@ struct Options {
   SubmeshArguments submeshes;
   std::string grids;
   std::string texture;
+  VolumeArguments volume;
   std::string report;
   bool verify = false;
   CommonOptions common;
@@ -87,6 +88,7 @@ ConvertOptions parse(const Options& options) {
   parsed.separation = parseSeparation(options.voxelization);
   parsed.weldTolerance = options.weldTolerance;
   parsed.strict = options.strict;
+  parsed.volume = parseVolume(options.volume);
   parsed.surface = parseSubmeshes(options.submeshes);
   parsed.run = options.common.run;
   if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
@@ -160,6 +162,8 @@ Action addConvert(CLI::App& app) {
                        "or the colours of the meshes)")
       ->type_name("KIND[:KEY=VALUE,...]")
       ->group("Output");
+  addVolumeOptions(*command, options->volume);
+  addFileOptions(*command, options->volume);
   addSubmeshOptions(*command, options->submeshes);
   command
       ->add_option("--report", options->report,

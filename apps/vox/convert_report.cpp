@@ -51,28 +51,52 @@ Json gridNames(const FinishedRun& run) {
   return names;
 }
 
+template <class Value>
+Json orNull(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json();
+}
+template <class Enum, std::size_t N>
+Json orNull(const NameTable<Enum, N>& names, const std::optional<Enum>& value) {
+  return value ? Json(nameIn(names, *value)) : Json();
+}
+
+Json toJson(const VolumeOptions& volume) {
+  return {{"fill", orNull(kFillNames, volume.fill)},
+          {"gain", orNull(volume.gain)},
+          {"open_mesh", orNull(kOpenMeshNames, volume.openMesh)},
+          {"band", orNull(volume.band)},
+          {"tolerance", orNull(volume.tolerance)},
+          {"half", orNull(volume.half)},
+          {"compression", orNull(kCompressionNames, volume.compression)},
+          {"target", orNull(kTargetNames, volume.target)},
+          {"up", orNull(kUpAxisNames, volume.up)}};
+}
+
 /// What was asked for; null where nothing was, and the scene or a default decided.
 Json optionsJson(const FinishedRun& run) {
   const ConvertOptions& options = run.options;
   const SmoothingOptions& smoothing = options.smoothing;
   const auto orNull = [](const auto& value) { return value ? Json(*value) : Json(); };
-  return {{"dim", orNull(options.dim)},
-          {"voxel_size", orNull(options.voxelSize)},
-          {"boundary", smoothing.boundary ? Json(boundaryRuleName(*smoothing.boundary)) : Json()},
-          {"interpolate",
-           smoothing.interpolate ? Json(interpolateName(*smoothing.interpolate)) : Json()},
-          {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
-          {"weld", orNull(options.weldTolerance)},
-          {"strict", orNull(options.strict)},
-          {"until", options.until ? Json(stopRuleName(*options.until)) : Json()},
-          {"voxelize", options.voxelize ? Json(voxelizeName(*options.voxelize)) : Json()},
-          {"separating", options.separation == Separation::k26 ? 26 : 6},
-          {"grids", options.grids ? gridNames(run) : Json()},
-          {"texture", options.texture ? Json(textureText(*options.texture)) : Json()},
-          {"localize", localizeName(options.surface.localize)},
-          {"submesh_faces", options.surface.submeshFaces},
-          {"threads", options.run.threads > 0 ? Json(options.run.threads) : Json()},
-          {"max_memory", options.run.maxMemory > 0 ? Json(options.run.maxMemory) : Json()}};
+  Json json = {
+      {"dim", orNull(options.dim)},
+      {"voxel_size", orNull(options.voxelSize)},
+      {"boundary", smoothing.boundary ? Json(boundaryRuleName(*smoothing.boundary)) : Json()},
+      {"interpolate",
+       smoothing.interpolate ? Json(interpolateName(*smoothing.interpolate)) : Json()},
+      {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
+      {"weld", orNull(options.weldTolerance)},
+      {"strict", orNull(options.strict)},
+      {"until", options.until ? Json(stopRuleName(*options.until)) : Json()},
+      {"voxelize", options.voxelize ? Json(voxelizeName(*options.voxelize)) : Json()},
+      {"separating", options.separation == Separation::k26 ? 26 : 6},
+      {"grids", options.grids ? gridNames(run) : Json()},
+      {"texture", options.texture ? Json(textureText(*options.texture)) : Json()},
+      {"localize", localizeName(options.surface.localize)},
+      {"submesh_faces", options.surface.submeshFaces},
+      {"threads", options.run.threads > 0 ? Json(options.run.threads) : Json()},
+      {"max_memory", options.run.maxMemory > 0 ? Json(options.run.maxMemory) : Json()}};
+  json.update(toJson(options.volume));
+  return json;
 }
 
 Json memoryJson(const Conversion& conversion) {

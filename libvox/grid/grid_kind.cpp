@@ -7,8 +7,8 @@
 namespace vox {
 namespace {
 
-constexpr std::array kAll = {GridKind::kDensity, GridKind::kMask, GridKind::kNormal,
-                             GridKind::kColor};
+constexpr std::array kAll = {GridKind::kDensity, GridKind::kMask, GridKind::kSurface,
+                             GridKind::kNormal, GridKind::kColor};
 
 }  // namespace
 
@@ -22,6 +22,8 @@ std::string gridName(GridKind kind) {
       return "normal";
     case GridKind::kColor:
       return "color";
+    case GridKind::kSurface:
+      return "surface";
   }
   return {};
 }

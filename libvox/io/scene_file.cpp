@@ -165,9 +165,38 @@ std::vector<GridKind> readGrids(const SceneText& scene, const toml::node& node) 
   return grids;
 }
 
+/// A value by its name, if the table has the key.
+template <class Enum, std::size_t N>
+void readNamed(const SceneText& text, const toml::table& table, const char* key,
+               const NameTable<Enum, N>& names, std::optional<Enum>& value) {
+  const auto* node = table.get(key);
+  if (node == nullptr) return;
+  const std::string name = requireString(text, *node, key);
+  value = namedIn(names, name);
+  if (!value)
+    text.fail(*node,
+              std::string(key) + " must be one of " + allNamesIn(names) + ", not " + quote(name));
+}
+
+VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table) {
+  VolumeOptions volume;
+  readNamed(text, table, "fill", kFillNames, volume.fill);
+  readNamed(text, table, "open_mesh", kOpenMeshNames, volume.openMesh);
+  readNamed(text, table, "compression", kCompressionNames, volume.compression);
+  readNamed(text, table, "target", kTargetNames, volume.target);
+  readNamed(text, table, "up", kUpAxisNames, volume.up);
+  if (const auto* half = table.get("half")) volume.half = requireBoolean(text, *half, "half");
+  if (const auto* gain = table.get("gain")) volume.gain = requireNumber(text, *gain, "gain");
+  if (const auto* band = table.get("band")) volume.band = requireNumber(text, *band, "band");
+  if (const auto* tolerance = table.get("tolerance"))
+    volume.tolerance = requireNumber(text, *tolerance, "tolerance");
+  return volume;
+}
+
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[convert]",
-                   {"dim", "voxel_size", "grids", "until", "voxelize", "weld", "strict"});
+                   {"dim", "voxel_size", "grids", "fill", "gain", "open_mesh", "band", "tolerance",
+                    "half", "compression", "target", "up", "until", "voxelize", "weld", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -177,6 +206,7 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
     if (scene.dim) text.fail(*size, "dim and voxel_size cannot both be given");
   }
   if (const auto* grids = table.get("grids")) scene.grids = readGrids(text, *grids);
+  scene.volume = readVolumeOptions(text, table);
   if (const auto* until = table.get("until")) scene.until = readStopRule(text, *until);
   if (const auto* way = table.get("voxelize")) scene.voxelize = readVoxelize(text, *way);
   if (const auto* weld = table.get("weld")) {

@@ -2,6 +2,7 @@
 
 #include "libvox/grid/grid_kind.h"
 #include "libvox/grid/texture_spec.h"
+#include "libvox/grid/volume_options.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/mesh/smoothing.h"
 #include "libvox/mesh/stop_rule.h"
@@ -32,6 +33,7 @@ struct Scene {
   std::optional<std::vector<GridKind>> grids;
   std::optional<double> weldTolerance;       ///< [convert] weld: world units
   std::optional<bool> strict;                ///< [convert] strict: no repair
+  VolumeOptions volume;                      ///< [convert] fill and what else it has
   std::optional<StopRule> until;             ///< [convert] until: of objects that say nothing
   std::optional<Voxelize> voxelize;          ///< [convert] voxelize: likewise
   std::vector<SceneObject> objects;          ///< at least one

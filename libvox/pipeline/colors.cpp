@@ -49,13 +49,15 @@ void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
 }  // namespace
 
 std::optional<PlacedTexture> textureOf(const SceneObject& object,
-                                       const std::optional<TextureSpec>& asked) {
+                                       const std::optional<TextureSpec>& asked, Turn turn) {
   const std::optional<TextureSpec>& spec = asked ? asked : object.texture;
   if (!spec) return std::nullopt;
   const Eigen::Affine3d fromWorld = spec->inWorld ? Eigen::Affine3d::Identity() : object.fromWorld;
   Box extent;
   for (const Index v : object.mesh.faceVertices) extent.add(fromWorld * object.mesh.points[v]);
-  return PlacedTexture{SolidTexture(*spec, extent), fromWorld};
+  Eigen::Matrix3d back;
+  for (int axis = 0; axis < 3; ++axis) back.col(axis) = turned(Vec3d::Unit(axis), inverse(turn));
+  return PlacedTexture{SolidTexture(*spec, extent), fromWorld * back};
 }
 
 openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask,

@@ -2,6 +2,7 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/transform.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/volume/texture.h"
 
@@ -22,8 +23,9 @@ struct PlacedTexture {
 };
 
 /// What an object is coloured with: the texture that is asked for, or else its own, or nothing.
+/// @param turn  of the grid
 std::optional<PlacedTexture> textureOf(const SceneObject& object,
-                                       const std::optional<TextureSpec>& asked);
+                                       const std::optional<TextureSpec>& asked, Turn turn);
 
 /// The grid `color`, active at the voxels of the mask. Objects are painted one after the other,
 /// each on all its voxels, so that where several share a voxel the last of them has it: with their

@@ -15,6 +15,7 @@
 #include "libvox/mesh/adjacency.h"
 #include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/metadata.h"
 #include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/refine.h"
@@ -60,8 +61,9 @@ GridTransform chooseTransform(const Box& box, const Scene& scene, const ConvertO
   const bool fromOptions = options.dim || options.voxelSize;
   const auto voxelSize = fromOptions ? options.voxelSize : scene.voxelSize;
   const int dim = (fromOptions ? options.dim : scene.dim).value_or(kDefaultDim);
-  const GridTransform transform =
+  GridTransform transform =
       voxelSize ? transformForVoxelSize(*voxelSize) : transformForDim(box, dim);
+  transform.turn = turnOf(overriding(options.volume, scene.volume));
   requireInRange(box, transform);
   return transform;
 }
@@ -125,12 +127,17 @@ double workOfPreparing(const SceneObject& object, const ConvertOptions& options)
                          interpolates(overriding(options.smoothing, object.smoothing)));
 }
 
+/// Voxels of a level set beside those of a surface, about.
+constexpr double kVoxelsOfBand = 4;
+
 double workOfWriting(GridKind kind, double area) {
   switch (kind) {
     case GridKind::kDensity:
       return workOfWritingDensity(area);
     case GridKind::kMask:
       return workOfWritingMask(area);
+    case GridKind::kSurface:
+      return kVoxelsOfBand * workOfWritingDensity(area);
     case GridKind::kNormal:
       return workOfWritingNormals(area);
     case GridKind::kColor:
@@ -152,6 +159,20 @@ void plan(const Scene& scene, const ConvertOptions& options, std::span<const dou
 }
 
 // Conversion
+
+/// Whether a grid is made from black voxels.
+bool needsVoxels(std::span<const GridKind> kinds) {
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [](GridKind kind) { return kind != GridKind::kSurface; });
+}
+
+/// Whether a grid tells inside from outside.
+bool needsInside(std::span<const GridKind> kinds, const VolumeOptions& volume) {
+  return std::any_of(kinds.begin(), kinds.end(), [&](GridKind kind) {
+    return kind == GridKind::kSurface ||
+           (kind == GridKind::kDensity && volume.fill == Fill::kSolid);
+  });
+}
 
 /// Notes what preparation did, and refuses vertices that it moved out of the range of the grid.
 void notePreparation(const PreparedObject& prepared, const GridTransform& transform,
@@ -211,8 +232,8 @@ std::vector<PreparedSurface> prepareObjects(const Scene& scene, const ConvertOpt
     budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
     const ConversionWay way = chooseWay(prepared.base, until, voxelizeOf(object, scene, options),
                                         options.separation, options.surface, progress);
-    surfaces.push_back(
-        {object.name, std::move(prepared.base), way, textureOf(object, options.texture)});
+    surfaces.push_back({object.name, std::move(prepared.base), way,
+                        textureOf(object, options.texture, transform.turn)});
   }
   return surfaces;
 }
@@ -249,7 +270,6 @@ openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<PreparedSurface
   }
   budget.take(grid.memoryBytes(), "the grid", kScatteredAdvice);
   auto mask = openvdb::MaskGrid::create(apart ? all : grid.takeTree());
-  mask->setName(gridName(GridKind::kMask));
   mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
   return mask;
 }
@@ -271,6 +291,16 @@ bool needsVoxelsApart(std::span<const PreparedSurface> surfaces, std::span<const
          std::find(kinds.begin(), kinds.end(), GridKind::kColor) != kinds.end();
 }
 
+/// A grid with its name and metadata.
+openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
+                                const VolumeOptions& volume, const openvdb::MetaMap& metadata) {
+  grid->setName(gridNameFor(kind, volume));
+  grid->setSaveFloatAsHalf(volume.half.value_or(false));
+  for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
+    grid->insertMeta(entry->first, *entry->second);
+  return grid;
+}
+
 Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progress& progress) {
   openvdb::initialize();
   Conversion result;
@@ -283,25 +313,31 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
   const Box box = boxOf(scene);
   const GridTransform transform = chooseTransform(box, scene, options);
   const std::vector<GridKind> kinds = gridsOf(scene, options);
+  const VolumeOptions volume = overriding(options.volume, scene.volume);
   const std::vector<double> areas = areasOf(scene, transform, progress);
   plan(scene, options, areas, kinds, progress);
   report.voxelSize = transform.voxelSize;
   std::vector<PreparedSurface> surfaces =
       prepareObjects(scene, options, transform, box.longestSide(), kinds, budget, progress, report);
+  if (needsInside(kinds, volume))
+    for (const PreparedSurface& surface : surfaces)
+      requireInside(surface, volume.openMesh.value_or(OpenMesh::kSurface), transform,
+                    report.warnings);
+  const auto toMark = needsVoxels(kinds) ? std::span(surfaces) : std::span<PreparedSurface>();
   const openvdb::MaskGrid::Ptr mask =
-      markObjects(scene, surfaces, options, transform, needsVoxelsApart(surfaces, kinds), areas,
+      markObjects(scene, toMark, options, transform, needsVoxelsApart(surfaces, kinds), areas,
                   budget, progress, report);
 
+  result.compression = volume.compression;
+  if (volume.target == Target::kBlender34)
+    mask->transform().postTranslate(openvdb::Vec3d(-transform.voxelSize / 2));
   progress.begin("grids", workOfGrids(areas, kinds));
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, options, transform, report);
-  for (const GridKind kind : kinds) {
-    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, budget, progress);
-    progress.check();
-    for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
-      grid->insertMeta(entry->first, *entry->second);
-    result.grids.push_back(std::move(grid));
-  }
+  for (const GridKind kind : kinds)
+    result.grids.push_back(
+        finished(makeGrid(kind, mask, surfaces, volume, budget, progress), kind, volume, metadata));
+  if (!needsVoxels(kinds)) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
 }
 
@@ -309,6 +345,9 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
 
 Conversion convert(const Scene& scene, const ConvertOptions& options) {
   requireStopRules(scene, options);
+  const VolumeOptions volume = overriding(options.volume, scene.volume);
+  requireValid(volume);
+  if (volume.compression) requireCompression(*volume.compression);
   requireValidScene(scene);
   Progress unwatched;
   Progress& progress = options.run.progress != nullptr ? *options.run.progress : unwatched;
@@ -318,10 +357,11 @@ Conversion convert(const Scene& scene, const ConvertOptions& options) {
 void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress) {
   openvdb::MetaMap metadata;
   metadata.insertMeta("creator", openvdb::StringMetadata(std::string("vox ") + version()));
-  if (progress == nullptr) return writeVdb(stream, conversion.grids, metadata);
+  if (progress == nullptr)
+    return writeVdb(stream, conversion.grids, metadata, conversion.compression);
   progress->beginLast("write");
   WatchedStream watched(*stream.rdbuf(), *progress, expectedBytes(conversion.grids));
-  writeVdb(watched, conversion.grids, metadata);
+  writeVdb(watched, conversion.grids, metadata, conversion.compression);
 }
 
 void writeGrids(const std::filesystem::path& file, const Conversion& conversion, bool overwrite,

@@ -2,6 +2,7 @@
 
 #include "libvox/grid/grid_kind.h"
 #include "libvox/grid/texture_spec.h"
+#include "libvox/grid/volume_options.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/stop_rule.h"
 #include "libvox/pipeline/polygons.h"
@@ -39,6 +40,7 @@ struct ConvertOptions : PreparationOptions {
   std::optional<StopRule> until;               ///< default: voxel
   std::optional<Voxelize> voxelize;            ///< default: auto
   Separation separation = Separation::k6;
+  VolumeOptions volume;
   /// Of all objects, instead of their own textures and colours; adds the color grid to those of the
   /// scene.
   std::optional<TextureSpec> texture;
@@ -66,7 +68,7 @@ struct ObjectReport {
 struct ConvertReport {
   double voxelSize = 0;  ///< world units
   std::vector<ObjectReport> objects;
-  std::uint64_t activeVoxels = 0;
+  std::uint64_t activeVoxels = 0;     ///< black voxels, or those of the grid if none were made
   std::vector<std::string> warnings;  ///< one line each: what the user may not expect
   int threads = 0;                    ///< that there were to use
   double prepareSeconds = 0;
@@ -76,6 +78,7 @@ struct ConvertReport {
 
 struct Conversion {
   std::vector<std::shared_ptr<openvdb::GridBase>> grids;  ///< one transform, in the order asked for
+  std::optional<Compression> compression;                 ///< of their file; default: as writeVdb
   ConvertReport report;
 };
 
@@ -86,11 +89,11 @@ struct Conversion {
 /// DESIGN section 9. The result does not depend on the number of threads, nor on how the surface is
 /// cut into submeshes. The progress keeps a share for writing the grids.
 ///
-/// @throws UsageError  dim, voxel size, number of threads, stop rule, smoothing or weld tolerance
-///   is nonsense; vertex conversion is asked for where it cannot be; a texture is asked for without
-///   the color grid
+/// @throws UsageError  dim, voxel size, gain, number of threads, stop rule, smoothing or weld
+///   tolerance is nonsense; vertex conversion is asked for where it cannot be; a texture is asked
+///   for without the color grid
 /// @throws InputError  the input has no extent and no voxel size is given
-/// @throws MeshError   as prepare (refine.h)
+/// @throws MeshError   as prepare (refine.h); an object has no inside, and one is asked for
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid
 /// @throws Cancelled   options.run.progress says so
 Conversion convert(const Scene& scene, const ConvertOptions& options);

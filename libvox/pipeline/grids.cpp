@@ -3,9 +3,12 @@
 #include "libvox/pipeline/grids.h"
 
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/distance.h"
+#include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/normals.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
+#include "libvox/volume/fill.h"
 #include "libvox/volume/normal_grid.h"
 
 #include <openvdb/openvdb.h>
@@ -38,6 +41,23 @@ double bytesOfGrids(double area, std::span<const GridKind> kinds) {
       perArea += bytesPerArea<openvdb::Vec3STree>(sizeof(openvdb::Vec3f));
   }
   return area * perArea;
+}
+
+openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
+                                   std::span<const PreparedSurface> surfaces,
+                                   const VolumeOptions& volume, MemoryBudget& budget,
+                                   const Progress& progress) {
+  openvdb::MaskTree::ConstPtr solid;
+  const openvdb::MaskTree* tree = &mask.tree();
+  if (volume.fill.value_or(Fill::kSurface) == Fill::kSolid) {
+    budget.require(bytesOfFilling(*tree), "the inside", kScatteredAdvice);
+    solid = solidOf(*tree, surfaces, budget, progress);
+    tree = solid.get();
+  }
+  budget.take(bytesOfGrid<openvdb::FloatTree>(*tree), "the density grid", kScatteredAdvice);
+  auto density = densityGrid(*tree, static_cast<float>(volume.gain.value_or(1)));
+  density->setTransform(mask.transform().copy());
+  return density;
 }
 
 openvdb::GridBase::Ptr makeNormals(const openvdb::MaskGrid& mask,
@@ -86,15 +106,17 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 }
 
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
+                                std::span<const PreparedSurface> surfaces,
+                                const VolumeOptions& volume, MemoryBudget& budget,
                                 Progress& progress) {
+  progress.check();
   switch (kind) {
     case GridKind::kMask:
       break;
     case GridKind::kDensity:
-      budget.take(bytesOfGrid<openvdb::FloatTree>(mask->tree()), "the density grid",
-                  kScatteredAdvice);
-      return densityGrid(*mask);
+      return makeDensity(*mask, surfaces, volume, budget, progress);
+    case GridKind::kSurface:
+      return surfaceGrid(surfaces, volume, mask->transform(), budget, progress);
     case GridKind::kNormal:
       return makeNormals(*mask, surfaces, budget, progress);
     case GridKind::kColor:

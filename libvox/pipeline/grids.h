@@ -1,8 +1,10 @@
 #pragma once
 
 #include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/grid/grid_kind.h"
 #include "libvox/grid/transform.h"
+#include "libvox/grid/volume_options.h"
 #include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/colors.h"
 #include "libvox/subdivide/level.h"
@@ -55,7 +57,8 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 /// @throws LimitError  it does not fit into the budget
 /// @throws Cancelled
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
+                                std::span<const PreparedSurface> surfaces,
+                                const VolumeOptions& volume, MemoryBudget& budget,
                                 Progress& progress);
 
 /// Work of making grids (work.h), by the area of each object in square voxels.
