@@ -72,6 +72,27 @@ class Cutter {
   std::vector<Index> pointOrigin_;
 };
 
+/// How many vertices a regular patch is sampled with along u and v, so that they stand half a voxel
+/// apart at most. Unlike faces of vertex conversion (stop.h) they need not be small all round,
+/// which spares needles most of theirs.
+std::pair<std::int64_t, std::int64_t> samplesOf(const Patch& patch) {
+  constexpr double kMostStep = 0.5;
+  const auto& p = patch.points;
+  double u = 0;
+  double v = 0;
+  for (std::size_t a = 0; a < 2; ++a)
+    for (std::size_t b = 0; b < 3; ++b) {
+      u = std::max(u, (p[a + 1][b] - p[a][b]).cwiseAbs().maxCoeff());
+      v = std::max(v, (p[b][a + 1] - p[b][a]).cwiseAbs().maxCoeff());
+    }
+  const auto halvings = [](double step) {
+    std::int64_t n = 1;
+    while (step > kMostStep * static_cast<double>(n)) n *= 2;
+    return n;
+  };
+  return {halvings(u), halvings(v)};
+}
+
 /// A piece of a level >= 1: gives away what is fine enough or regular, and knows what is left.
 class Piece {
  public:
@@ -83,6 +104,7 @@ class Piece {
   bool emit() {
     const PolygonMesh& mesh = colored_.level.mesh;
     inside_.assign(mesh.faceCount(), 0);
+    measureFaces();
     std::vector<std::uint8_t> seen(mesh.pointCount(), 0);
     bool left = false;
     for (Index c = 0; c < mesh.cornerCount(); ++c) {
@@ -116,18 +138,31 @@ class Piece {
   }
 
  private:
+  void measureFaces() {
+    diameters_.clear();
+    std::vector<Vec3d> points;
+    for (Index f = 0; f < colored_.level.mesh.faceCount(); ++f) {
+      points.clear();
+      for (const Index v : colored_.level.mesh.face(f))
+        points.push_back(colored_.level.mesh.points[v]);
+      diameters_.push_back(diameter(points));
+    }
+  }
+
   bool emitVertex(Index v, const OneRing& ring) {
     const PolygonMesh& mesh = colored_.level.mesh;
-    if (largestFace(mesh, colored_.level.adjacency, ring) <= kVertexConversionSpan) {
+    double largest = 0;
+    for (const Index c : ring.corners)
+      largest = std::max(largest, diameters_[colored_.level.adjacency.cornerFace[c]]);
+    if (largest <= kVertexConversionSpan) {
       sink_->point(mesh.points[v], colored_.colors[v]);
       return true;
     }
     if (!ring.closed) return false;
     const auto position = patchAround(colored_.level, ring, mesh.points);
     if (!position) return false;
-    const PatchDepth depth = patchDepth(*position);
-    sink_->patch(*position, *patchAround(colored_.level, ring, colored_.colors),
-                 std::int64_t{1} << depth.alongU, std::int64_t{1} << depth.alongV);
+    const auto [rows, columns] = samplesOf(*position);
+    sink_->patch(*position, *patchAround(colored_.level, ring, colored_.colors), rows, columns);
     return true;
   }
 
@@ -147,6 +182,7 @@ class Piece {
   ColoredLevel colored_;
   std::vector<std::uint8_t> owned_;
   std::vector<std::uint8_t> inside_;  // per face
+  std::vector<double> diameters_;     // per face, L-inf
   ColoredSink* sink_;
 };
 
@@ -180,9 +216,13 @@ ColoredLevel nextColoredLevel(ColoredLevel level) {
 }
 
 ColoredSurface::ColoredSurface(const SubdivisionLevel& base, std::span<const Vec3d> colors)
-    : base_(base), colors_(colors), inside_(base.mesh.faceCount(), 0) {}
+    : base_(base),
+      colors_(colors),
+      inside_(base.mesh.faceCount(), 0),
+      seen_(base.mesh.pointCount(), 0) {}
 
 void ColoredSurface::addRing(Index corner) {
+  if (std::exchange(seen_[base_.mesh.faceVertices[corner]], 1) != 0) return;
   for (const Index k : oneRing(base_.mesh, base_.adjacency, corner).corners) {
     const Index f = base_.adjacency.cornerFace[k];
     if (std::exchange(inside_[f], 1) == 0) faces_.push_back(f);
@@ -194,6 +234,8 @@ ColoredLevel ColoredSurface::cutOut(std::span<const Index> faces) {
   for (const Index f : faces)
     for (Index c = base_.mesh.faceOffsets[f]; c < base_.mesh.faceOffsets[f + 1]; ++c) addRing(c);
   for (const Index f : faces_) inside_[f] = 0;
+  for (const Index f : faces)
+    for (const Index v : base_.mesh.face(f)) seen_[v] = 0;
   std::sort(faces_.begin(), faces_.end());
   ColoredLevel piece{Cutter(base_, slots_, points_).cut(faces_), {}};
   for (const Index f : faces_)

@@ -35,13 +35,13 @@ ColoredLevel firstColoredLevel(const ColoredLevel& base);
 ColoredLevel nextColoredLevel(ColoredLevel level);
 
 /// The vertices of a subdivided surface with their colours, each at the level where the faces
-/// around it are fine enough for vertex conversion (stop.h). LocalSurface goes as deep, or deeper
-/// where that is cheaper to find out, so nearly every black voxel holds some. Submesh by submesh:
-/// the faces around its pending vertices are cut out of each level, with those around them, and
-/// subdivided as a mesh of their own; regular vertices leave as patches. So what is held is a small
-/// multiple of the submesh. The bits of what is emitted do not depend on how the mesh is cut.
+/// around it are fine enough for vertex conversion (stop.h), or in regular patches half a voxel
+/// apart at most. So nearly every black voxel holds some. Submesh by submesh: the faces around its
+/// pending vertices are cut out of each level, with those around them, and subdivided as a mesh of
+/// their own; regular vertices leave as patches. So what is held is a small multiple of the
+/// submesh. The bits of what is emitted do not depend on how the mesh is cut.
 ///
-/// One object per thread. Plain rather than fast: some ten times the cost of LocalSurface.
+/// One object per thread. Plain rather than fast: five to ten times the cost of LocalSurface.
 class ColoredSurface {
  public:
   /// @param base    level 0, in index space, as for LocalSurface
@@ -59,6 +59,7 @@ class ColoredSurface {
   std::span<const Vec3d> colors_;
   std::vector<Index> faces_;          // of the submesh and around it
   std::vector<std::uint8_t> inside_;  // per face of the base: 1 if it is one of them
+  std::vector<std::uint8_t> seen_;    // per point of the base: 1 if its faces are among them
   std::vector<Index> slots_;          // per face: where it went
   std::vector<Index> points_;         // per point
 };
