@@ -57,7 +57,7 @@ std::optional<PlacedTexture> textureOf(const SceneObject& object,
   for (const Index v : object.mesh.faceVertices) extent.add(fromWorld * object.mesh.points[v]);
   Eigen::Matrix3d back;
   for (int axis = 0; axis < 3; ++axis) back.col(axis) = turned(Vec3d::Unit(axis), inverse(turn));
-  return PlacedTexture{SolidTexture(*spec, extent), fromWorld * back};
+  return PlacedTexture{SolidTexture(*spec, extent), fromWorld * Eigen::Affine3d(back)};
 }
 
 openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask,
