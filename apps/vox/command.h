@@ -13,5 +13,6 @@ using Action = std::function<int()>;
 Action addConvert(CLI::App& app);
 Action addSubdivide(CLI::App& app);
 Action addInfo(CLI::App& app);
+Action addRender(CLI::App& app);
 
 }  // namespace vox::app

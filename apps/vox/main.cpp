@@ -83,8 +83,10 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 success, 2 usage, 3 bad input, 4 cannot be done within limits,\n"
       "5 output cannot be written, 70 internal error, 130 interrupted.");
-  const std::vector<std::pair<const char*, Action>> actions = {
-      {"convert", addConvert(app)}, {"subdivide", addSubdivide(app)}, {"info", addInfo(app)}};
+  const std::vector<std::pair<const char*, Action>> actions = {{"convert", addConvert(app)},
+                                                               {"subdivide", addSubdivide(app)},
+                                                               {"info", addInfo(app)},
+                                                               {"render", addRender(app)}};
 
   try {
     app.parse(argc, argv);

@@ -2,16 +2,13 @@
 
 #include "libvox/inspect/summary.h"
 
-#include "libvox/core/error.h"
-#include "libvox/io/input_file.h"
-#include "libvox/io/write_vdb.h"
+#include "libvox/io/read_vdb.h"
 #include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/winding_forest.h"
 
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
-#include <fstream>
 #include <numeric>
 #include <span>
 
@@ -86,14 +83,6 @@ void findGenus(MeshSummary& summary) {
         (2 * static_cast<std::int64_t>(summary.components) - summary.eulerCharacteristic) / 2;
 }
 
-/// A file of ours names the hash of its content; OpenVDB itself trusts what it reads.
-void requireIntact(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file.string() + ": cannot be opened; check its permissions");
-  if (vdbContent(stream) == VdbContent::kDamaged)
-    throw InputError(file.string() + ": is damaged: its content does not match its hash");
-}
-
 GridSummary summarizeGrid(const openvdb::GridBase& grid) {
   GridSummary summary;
   summary.name = grid.getName();
@@ -141,21 +130,10 @@ MeshSummary summarize(const PolygonMesh& mesh) {
 }
 
 std::vector<GridSummary> summarizeVdb(const std::filesystem::path& file) {
-  requireInputFile(file);
-  openvdb::initialize();
-  openvdb::logging::setLevel(openvdb::logging::Level::Fatal);
-  requireIntact(file);
   std::vector<GridSummary> summaries;
-  try {
-    openvdb::io::File vdb(file.string());
-    vdb.open(/*delayLoad=*/true);  // counting voxels takes topology only
-    for (auto name = vdb.beginName(); name != vdb.endName(); ++name)
-      summaries.push_back(summarizeGrid(*vdb.readGrid(*name)));
-  } catch (const std::exception& wrong) {
-    constexpr std::size_t kMost = 200;  // damaged files may quote megabytes of themselves
-    throw InputError(file.string() +
-                     ": cannot be read as OpenVDB: " + std::string(wrong.what()).substr(0, kMost));
-  }
+  forEachGrid(file, [&](const NamedGrid& named) {
+    summaries.push_back(summarizeGrid(*named.grid));  // counting voxels takes topology only
+  });
   return summaries;
 }
 
