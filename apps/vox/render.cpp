@@ -111,7 +111,8 @@ RenderOptions parse(const Options& options) {
   parsed.background = parseBackground(options.background);
   parsed.samples = options.samples;
   parsed.shading.occlusionRays = options.occlusionRays;
-  parsed.run = options.common.run;
+  parsed.maxMemory = options.common.run.maxMemory;
+  parsed.threads = options.common.run.threads;
   requireRenderable(parsed);
   return parsed;
 }
@@ -168,7 +169,7 @@ int run(const Options& options) {
          isVdb ? " is for meshes and scenes only" : " is for .vdb files only");
   ProgressBar bar(!options.common.quiet);
   Progress progress(bar.callback());
-  renderOptions.run.progress = &progress;
+  renderOptions.progress = &progress;
   const ConvertOptions convertOptions = parseConversion(options, progress);
   Scene scene;
   if (isVdb)

@@ -129,7 +129,7 @@ Image renderViews(const VisibleGrids& visible, const RenderOptions& options, Pro
   const Sheet sheet(options.views.size());
   const int width = sheet.columns * options.width;
   const int height = sheet.rows * options.height;
-  const MemoryBudget budget(options.run.maxMemory);
+  const MemoryBudget budget(options.maxMemory);
   constexpr std::uint64_t kBytesPerPixel = 16;  // the image, its channels packed, the file
   budget.require(
       kBytesPerPixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height),
@@ -177,8 +177,8 @@ void requireRenderable(const RenderOptions& options) {
 Image render(const VisibleGrids& visible, const RenderOptions& options) {
   requireRenderable(options);
   Progress unwatched;
-  Progress& progress = options.run.progress != nullptr ? *options.run.progress : unwatched;
-  return onThreads(options.run.threads, [&] { return renderViews(visible, options, progress); });
+  Progress& progress = options.progress != nullptr ? *options.progress : unwatched;
+  return onThreads(options.threads, [&] { return renderViews(visible, options, progress); });
 }
 
 }  // namespace vox

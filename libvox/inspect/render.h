@@ -4,11 +4,13 @@
 #include "libvox/inspect/shading.h"
 #include "libvox/inspect/visible.h"
 #include "libvox/io/image.h"
-#include "libvox/pipeline/run_options.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace vox {
+
+class Progress;
 
 struct RenderOptions {
   std::vector<View> views = {*viewNamed("iso")};  ///< several make a contact sheet
@@ -19,7 +21,9 @@ struct RenderOptions {
   int samples = 2;   ///< squared: rays per pixel
   ShadingOptions shading;
   Pixel background = {255, 255, 255, 255};  ///< its coverage is 0 or 255
-  RunOptions run;
+  std::uint64_t maxMemory = 0;   ///< bytes for the image; 0: three quarters of what is free
+  int threads = 0;               ///< 0: all processors
+  Progress* progress = nullptr;  ///< told how far the run is; may cancel it
 };
 
 inline constexpr int kMostPixelsAcross = 16384;  ///< of a picture
@@ -36,7 +40,7 @@ void requireRenderable(const RenderOptions& options);
 ///
 /// @throws UsageError  as requireRenderable
 /// @throws LimitError  the image does not fit into memory
-/// @throws Cancelled   options.run.progress says so; it is told a stage "render"
+/// @throws Cancelled   options.progress says so; it is told a stage "render"
 Image render(const VisibleGrids& visible, const RenderOptions& options);
 
 }  // namespace vox

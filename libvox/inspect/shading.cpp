@@ -16,12 +16,12 @@ namespace {
 constexpr std::array kShadings = {Shading::kCongradient, Shading::kNormals, Shading::kFlat};
 
 // Toward the lamps and up the sky, by the axes of the camera: right, up, toward the viewer.
-const Vec3d kLamp = Vec3d(-0.5, 0.65, 0.75).normalized();
-const Vec3d kFill = Vec3d(0.8, -0.1, 0.4).normalized();
-constexpr double kLampLight = 0.72;
-constexpr double kFillLight = 0.12;
-constexpr double kSkyLight = 0.34;
-constexpr double kGroundLight = 0.55;  // of the sky's
+const Vec3d kLamp = Vec3d(-0.55, 0.7, 0.6).normalized();
+const Vec3d kFill = Vec3d(0.9, 0, 0.3).normalized();
+constexpr double kLampLight = 0.8;
+constexpr double kFillLight = 0.08;
+constexpr double kSkyLight = 0.22;
+constexpr double kGroundLight = 0.4;  // of the sky's
 
 /// Of a surface that has no colour.
 constexpr double kAlbedo = 0.8;
@@ -67,6 +67,12 @@ Vec3d hemisphereDirection(const Vec3d& normal, const Vec3d& right, const Vec3d& 
   const Vec3d v = normal.cross(u);
   return radius * std::cos(angle) * u + radius * std::sin(angle) * v +
          std::sqrt(std::max(0.0, 1 - radius * radius)) * normal;
+}
+
+/// Diffuse reflection of a lamp that is not a point: light fades out a little past the horizon.
+double softened(double cosine) {
+  constexpr double kPast = 0.25;
+  return std::max(0.0, (cosine + kPast) / (1 + kPast));
 }
 
 double longestSide(const std::vector<openvdb::CoordBBox>& boxes) {
@@ -176,8 +182,8 @@ std::optional<Light> Shader::look(const Sight& sight, int sample, int samples) {
   const Vec3d seen(normal.dot(axes_.right), normal.dot(axes_.up), -normal.dot(axes_.forward));
   const double sky = skyAt(ray, *hit, normalIndex, sample, samples);
   const double horizon = (1 + kGroundLight) / 2 + (1 - kGroundLight) / 2 * seen.y();
-  const double light = kLampLight * std::max(0.0, seen.dot(kLamp)) +
-                       kFillLight * std::max(0.0, seen.dot(kFill)) + kSkyLight * horizon * sky;
+  const double light = kLampLight * softened(seen.dot(kLamp)) +
+                       kFillLight * softened(seen.dot(kFill)) + kSkyLight * horizon * sky;
   return light * colorAt(hit->voxel);
 }
 

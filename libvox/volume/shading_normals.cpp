@@ -14,13 +14,16 @@ namespace {
 using openvdb::Coord;
 using Voxels = openvdb::tree::ValueAccessor<const openvdb::MaskTree>;
 
-/// Columns to each side. Wider smooths more and rounds edges and small features further; at 3 the
-/// rounding of voxels is averaged down to a degree or two.
-constexpr int kReach = 3;
+/// Columns to each side. Over a wide window the rounding of voxels is averaged down to a fraction
+/// of a degree; small features and edges need a narrow one.
+constexpr int kReach = 6;
+constexpr int kNarrowReach = 3;
 constexpr int kSide = 2 * kReach + 1;
 
 /// Most steps up or down to the next column of a sheet: slopes to 45 degrees, and rounding.
 constexpr int kMostStep = 2;
+constexpr std::size_t kKnownLog2 = 9;
+
 constexpr int kNoHeight = std::numeric_limits<int>::max();
 
 /// Columns over the plane of axes u and v, heights along the third, toward the viewer.
@@ -99,16 +102,25 @@ struct Moments {
 /// Moments of the columns before, at and after the middle, along i and j.
 using Blocks = std::array<std::array<Moments, 3>, 3>;
 
-Blocks blocksOf(const Heights& heights) {
-  Blocks blocks;
+/// What the windows around a voxel hold.
+struct Windows {
+  Blocks narrow;
+  Moments wide;
+};
+
+Windows windowsOf(const Heights& heights) {
+  Windows windows;
   const auto block = [](int i) { return static_cast<std::size_t>((i > 0) - (i < 0) + 1); };
   for (int i = -kReach; i <= kReach; ++i)
     for (int j = -kReach; j <= kReach; ++j) {
       const int height =
           heights[static_cast<std::size_t>(i + kReach)][static_cast<std::size_t>(j + kReach)];
-      if (height != kNoHeight) blocks[block(i)][block(j)].addColumn(i, j, height);
+      if (height == kNoHeight) continue;
+      windows.wide.addColumn(i, j, height);
+      if (std::max(std::abs(i), std::abs(j)) <= kNarrowReach)
+        windows.narrow[block(i)][block(j)].addColumn(i, j, height);
     }
-  return blocks;
+  return windows;
 }
 
 struct Plane {
@@ -142,39 +154,62 @@ Plane planeThrough(const Moments& m) {
 }
 
 /// Moments of the blocks [i0, i1] x [j0, j1].
-Plane planeOver(const Blocks& blocks, std::size_t i0, std::size_t i1, std::size_t j0,
-                std::size_t j1) {
+Moments momentsOver(const Blocks& blocks, std::size_t i0, std::size_t i1, std::size_t j0,
+                    std::size_t j1) {
   Moments all;
   for (std::size_t i = i0; i <= i1; ++i)
     for (std::size_t j = j0; j <= j1; ++j) all.add(blocks[i][j]);
-  return planeThrough(all);
+  return all;
 }
 
 /// A one-sided difference sees half as much and bends with a curved surface: it has to fit far
 /// better before it counts.
 constexpr double kTrustInCentral = 16;
 
-/// The three differences as one slope.
-double mixed(const Plane& backward, const Plane& central, const Plane& forward,
-             double Plane::*slope) {
-  const double trusted = kTrustInCentral * central.weight;
-  const double sum = backward.weight + trusted + forward.weight;
-  if (sum <= 0) return 0;
-  return (backward.weight * (backward.*slope) + trusted * (central.*slope) +
-          forward.weight * (forward.*slope)) /
-         sum;
-}
+struct Differences {
+  Plane backward, central, forward, wide;
 
-Vec3d normalIn(Voxels& voxels, const HeightFrame& frame) {
-  const Blocks blocks = blocksOf(heightsAround(voxels, frame));
-  const Plane central = planeOver(blocks, 0, 2, 0, 2);
+  /// Their slopes as one.
+  double mixed(double Plane::*slope) const {
+    double sum = 0;
+    double weights = 0;
+    const auto add = [&](const Plane& plane, double trust) {
+      sum += trust * plane.weight * (plane.*slope);
+      weights += trust * plane.weight;
+    };
+    add(backward, 1);
+    add(central, kTrustInCentral);
+    add(forward, 1);
+    add(wide, kTrustInCentral);
+    return weights > 0 ? sum / weights : 0;
+  }
+};
+
+/// A normal, and what speaks for the plane it was found over.
+struct Estimate {
   Vec3d normal;
-  normal[frame.up] = frame.sign;
-  normal[frame.u] =
-      -mixed(planeOver(blocks, 0, 1, 0, 2), central, planeOver(blocks, 1, 2, 0, 2), &Plane::p);
-  normal[frame.v] =
-      -mixed(planeOver(blocks, 0, 2, 0, 1), central, planeOver(blocks, 0, 2, 1, 2), &Plane::q);
-  return normal.normalized();
+  int columns;   // of the narrow window
+  double score;  // of all columns, seen as the surface faces the plane
+};
+
+Estimate estimateIn(Voxels& voxels, const HeightFrame& frame) {
+  const Windows windows = windowsOf(heightsAround(voxels, frame));
+  const Blocks& blocks = windows.narrow;
+  const Moments all = momentsOver(blocks, 0, 2, 0, 2);
+  const Plane central = planeThrough(all);
+  const Plane wide = planeThrough(windows.wide);
+  const Differences alongU = {planeThrough(momentsOver(blocks, 0, 1, 0, 2)), central,
+                              planeThrough(momentsOver(blocks, 1, 2, 0, 2)), wide};
+  const Differences alongV = {planeThrough(momentsOver(blocks, 0, 2, 0, 1)), central,
+                              planeThrough(momentsOver(blocks, 0, 2, 1, 2)), wide};
+  Estimate estimate;
+  estimate.normal[frame.up] = frame.sign;
+  estimate.normal[frame.u] = -alongU.mixed(&Plane::p);
+  estimate.normal[frame.v] = -alongV.mixed(&Plane::q);
+  estimate.normal.normalize();
+  estimate.columns = all.n;
+  estimate.score = all.n * std::abs(estimate.normal[frame.up]);
+  return estimate;
 }
 
 int largestComponent(const Vec3d& v) {
@@ -197,20 +232,42 @@ int axisToStart(Voxels& voxels, const Coord& voxel, const Vec3d& towardViewer) {
 
 }  // namespace
 
+CongradientNormals::CongradientNormals(const openvdb::MaskTree& voxels)
+    : voxels_(voxels), known_(std::size_t{1} << kKnownLog2) {}
+
 Vec3d CongradientNormals::at(const Coord& voxel, const Vec3d& towardViewer) {
-  int up = axisToStart(voxels_, voxel, towardViewer);
-  Vec3d normal;
-  // A plane that the surface leans over is left for the one it faces.
-  constexpr int kMostPlanes = 3;
+  const int start = axisToStart(voxels_, voxel, towardViewer);
+  const auto isNegative = [&](int axis) { return towardViewer[axis] < 0 ? 1 : 0; };
+  const int side = start + 4 * isNegative(0) + 8 * isNegative(1) + 16 * isNegative(2);
+  Known& known = known_[voxel.hash<kKnownLog2>()];
+  if (known.side != side || known.voxel != voxel)
+    known = {voxel, side, estimate(voxel, start, towardViewer)};
+  constexpr double kFromBehind = -0.25;  // a thin sheet, whose other side was found
+  const bool behind = known.normal.dot(towardViewer) < kFromBehind * towardViewer.norm();
+  return behind ? Vec3d(-known.normal) : known.normal;
+}
+
+/// Depends on the signs of towardViewer only.
+Vec3d CongradientNormals::estimate(const Coord& voxel, int start, const Vec3d& towardViewer) {
+  // A plane that the surface leans over, or that it breaks off from, is left for a better one.
+  constexpr int kEnoughColumns = 40;
   constexpr double kLeaning = 1.15;
-  for (int plane = 0; plane < kMostPlanes; ++plane) {
+  Estimate best{Vec3d::Zero(), 0, -1};
+  std::array<bool, 3> tried{};
+  for (int up = start;;) {
+    tried[static_cast<std::size_t>(up)] = true;
     const HeightFrame frame{voxel, up, (up + 1) % 3, (up + 2) % 3, towardViewer[up] < 0 ? -1 : 1};
-    normal = normalIn(voxels_, frame);
-    const int facing = largestComponent(normal);
-    if (std::abs(normal[facing]) < kLeaning * std::abs(normal[up])) break;
-    up = facing;
+    const Estimate estimate = estimateIn(voxels_, frame);
+    if (estimate.score > best.score) best = estimate;
+    const int facing = largestComponent(estimate.normal);
+    const bool leans = std::abs(estimate.normal[facing]) > kLeaning * std::abs(estimate.normal[up]);
+    if (!leans && estimate.columns >= kEnoughColumns) break;
+    up = leans ? facing : (up + 1) % 3;
+    if (tried[static_cast<std::size_t>(up)]) up = (up + 1) % 3;
+    if (tried[static_cast<std::size_t>(up)]) up = (up + 1) % 3;
+    if (tried[static_cast<std::size_t>(up)]) break;
   }
-  return normal.dot(towardViewer) < 0 ? Vec3d(-normal) : normal;
+  return best.normal;
 }
 
 }  // namespace vox
