@@ -140,7 +140,7 @@ Vec3d Shader::normalAt(const RayHit& hit, const Vec3d& direction) {
   if (options_.shading == Shading::kFlat || !congradient_)
     return facing(hit.face, hit.face, direction);
   if (const auto stored = storedNormal(hit.voxel)) return facing(*stored, hit.face, direction);
-  return congradient_->at(hit.voxel, -direction);
+  return congradient_->at(hit.voxel, hit.face, -direction);
 }
 
 Light Shader::colorAt(const openvdb::Coord& voxel) {

@@ -218,54 +218,43 @@ int largestComponent(const Vec3d& v) {
   return axis;
 }
 
-/// The axis of the free face that looks most toward the viewer; or of any such face.
-int axisToStart(Voxels& voxels, const Coord& voxel, const Vec3d& towardViewer) {
-  int best = -1;
-  for (int axis = 0; axis < 3; ++axis) {
-    Coord beside = voxel;
-    beside[axis] += towardViewer[axis] < 0 ? -1 : 1;
-    const bool better = best < 0 || std::abs(towardViewer[axis]) > std::abs(towardViewer[best]);
-    if (better && !voxels.isValueOn(beside)) best = axis;
-  }
-  return best < 0 ? largestComponent(towardViewer) : best;
-}
-
 }  // namespace
 
 CongradientNormals::CongradientNormals(const openvdb::MaskTree& voxels)
     : voxels_(voxels), known_(std::size_t{1} << kKnownLog2) {}
 
-Vec3d CongradientNormals::at(const Coord& voxel, const Vec3d& towardViewer) {
-  const int start = axisToStart(voxels_, voxel, towardViewer);
-  const auto isNegative = [&](int axis) { return towardViewer[axis] < 0 ? 1 : 0; };
-  const int side = start + 4 * isNegative(0) + 8 * isNegative(1) + 16 * isNegative(2);
+Vec3d CongradientNormals::at(const Coord& voxel, const Vec3d& face, const Vec3d& towardViewer) {
+  const int start = largestComponent(face);
+  const int side = 2 * start + (face[start] < 0 ? 1 : 0);
   Known& known = known_[voxel.hash<kKnownLog2>()];
   if (known.side != side || known.voxel != voxel)
-    known = {voxel, side, estimate(voxel, start, towardViewer)};
-  constexpr double kFromBehind = -0.25;  // a thin sheet, whose other side was found
-  const bool behind = known.normal.dot(towardViewer) < kFromBehind * towardViewer.norm();
-  return behind ? Vec3d(-known.normal) : known.normal;
+    known = {voxel, side, estimate(voxel, start, face[start] < 0 ? -1 : 1)};
+  // Where the surface turns from sight, the viewer alone does not tell its sides apart.
+  return known.normal.dot(towardViewer + face) < 0 ? Vec3d(-known.normal) : known.normal;
 }
 
-/// Depends on the signs of towardViewer only.
-Vec3d CongradientNormals::estimate(const Coord& voxel, int start, const Vec3d& towardViewer) {
+Vec3d CongradientNormals::estimate(const Coord& voxel, int start, int sign) {
   // A plane that the surface leans over, or that it breaks off from, is left for a better one.
   constexpr int kEnoughColumns = 40;
   constexpr double kLeaning = 1.15;
+  Vec3d first = Vec3d::Zero();
   Estimate best{Vec3d::Zero(), 0, -1};
   std::array<bool, 3> tried{};
-  for (int up = start;;) {
+  for (int up = start; !tried[static_cast<std::size_t>(up)];) {
     tried[static_cast<std::size_t>(up)] = true;
-    const HeightFrame frame{voxel, up, (up + 1) % 3, (up + 2) % 3, towardViewer[up] < 0 ? -1 : 1};
+    if (up != start && first[up] != 0) sign = first[up] < 0 ? -1 : 1;
+    const HeightFrame frame{voxel, up, (up + 1) % 3, (up + 2) % 3, sign};
     const Estimate estimate = estimateIn(voxels_, frame);
+    if (up == start) first = estimate.normal;
     if (estimate.score > best.score) best = estimate;
     const int facing = largestComponent(estimate.normal);
     const bool leans = std::abs(estimate.normal[facing]) > kLeaning * std::abs(estimate.normal[up]);
     if (!leans && estimate.columns >= kEnoughColumns) break;
-    up = leans ? facing : (up + 1) % 3;
-    if (tried[static_cast<std::size_t>(up)]) up = (up + 1) % 3;
-    if (tried[static_cast<std::size_t>(up)]) up = (up + 1) % 3;
-    if (tried[static_cast<std::size_t>(up)]) break;
+    const int next = leans ? facing : (up + 1) % 3;
+    for (int axis = next; axis < next + 3; ++axis) {
+      up = axis % 3;
+      if (!tried[static_cast<std::size_t>(up)]) break;
+    }
   }
   return best.normal;
 }

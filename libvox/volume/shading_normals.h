@@ -25,20 +25,20 @@ class CongradientNormals {
   /// @param voxels  must outlive this
   explicit CongradientNormals(const openvdb::MaskTree& voxels);
 
-  /// Unit normal of the surface at an active voxel, in index space, on the side it is seen from;
-  /// where it turns from sight the normal may lean away a little.
-  /// @param towardViewer  where from, not zero; a face of the voxel on that side should be free
-  Vec3d at(const openvdb::Coord& voxel, const Vec3d& towardViewer);
+  /// Unit normal of the surface at an active voxel, in index space.
+  /// @param face          outward unit normal of the side of the voxel that is seen
+  /// @param towardViewer  where from, a unit vector: says which side of the surface is outside
+  Vec3d at(const openvdb::Coord& voxel, const Vec3d& face, const Vec3d& towardViewer);
 
  private:
   /// What was asked for last among the voxels that share a slot: neighbouring rays hit the same.
   struct Known {
     openvdb::Coord voxel;
-    int side = -1;  // where from, as far as it matters
+    int side = -1;  // of the voxel, where the surface was begun from
     Vec3d normal;
   };
 
-  Vec3d estimate(const openvdb::Coord& voxel, int start, const Vec3d& towardViewer);
+  Vec3d estimate(const openvdb::Coord& voxel, int start, int sign);
 
   openvdb::tree::ValueAccessor<const openvdb::MaskTree> voxels_;
   std::vector<Known> known_;
