@@ -16,15 +16,15 @@ namespace {
 constexpr std::array kShadings = {Shading::kCongradient, Shading::kNormals, Shading::kFlat};
 
 // Toward the lamps and up the sky, by the axes of the camera: right, up, toward the viewer.
-const Vec3d kLamp = Vec3d(-0.55, 0.7, 0.6).normalized();
+const Vec3d kLamp = Vec3d(-0.6, 0.7, 0.5).normalized();
 const Vec3d kFill = Vec3d(0.9, 0, 0.3).normalized();
-constexpr double kLampLight = 0.8;
+constexpr double kLampLight = 0.85;
 constexpr double kFillLight = 0.08;
 constexpr double kSkyLight = 0.22;
 constexpr double kGroundLight = 0.4;  // of the sky's
 
 /// Of a surface that has no colour.
-constexpr double kAlbedo = 0.8;
+constexpr double kAlbedo = 0.68;
 
 /// How far a surface is in the way of its own sky, by its longest side.
 constexpr double kOcclusionReach = 0.12;
@@ -71,7 +71,7 @@ Vec3d hemisphereDirection(const Vec3d& normal, const Vec3d& right, const Vec3d& 
 
 /// Diffuse reflection of a lamp that is not a point: light fades out a little past the horizon.
 double softened(double cosine) {
-  constexpr double kPast = 0.25;
+  constexpr double kPast = 0.12;
   return std::max(0.0, (cosine + kPast) / (1 + kPast));
 }
 
