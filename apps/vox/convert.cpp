@@ -89,6 +89,12 @@ ConvertOptions parse(const Options& options) {
   return parsed;
 }
 
+/// The grids stay to the end of the process: to free millions of nodes takes longer than to end.
+Conversion& conversionOfProcess() {
+  static auto* const conversion = new Conversion;
+  return *conversion;
+}
+
 int run(const Options& options) {
   ConvertOptions convertOptions = parse(options);
   ProgressBar bar(!options.common.quiet);
@@ -99,7 +105,7 @@ int run(const Options& options) {
 
   Progress progress(bar.callback());
   convertOptions.run.progress = &progress;
-  Conversion conversion;
+  Conversion& conversion = conversionOfProcess();
   double writeSeconds = 0;
   {
     const CancelOnSignal cancelOnSignal(progress);

@@ -148,7 +148,7 @@ FanForest findFans(const PolygonMesh& mesh, const Adjacency& joints) {
 }  // namespace
 
 Joints joinFaces(const PolygonMesh& mesh, CrowdedEdge crowded) {
-  Joints joints{buildAdjacency(mesh), {}};
+  Joints joints{separateFaces(mesh), {}};
   const auto edges = cornersByEdge(mesh, joints.adjacency);
   forEachEdge(edges, [&](std::span<const EdgeCorner> edge) {
     if (edge.size() > 2) joints.crowdedEdges.push_back(edge[0].corner);
