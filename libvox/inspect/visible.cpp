@@ -170,6 +170,9 @@ VisibleGrids look(std::span<const GridBase::Ptr> grids, const VisibleOptions& op
   requireLinear(*shown);
   VisibleGrids visible;
   if (isLevelSet(*shown)) {
+    if (!shown->hasUniformVoxels())
+      throw InputError("level set " + shown->getName() +
+                       " has voxels that are no cubes; resample it first");
     visible.levelSet = asFloats(shown);
     visible.boxes = boxesOf(visible.levelSet->tree());
   } else {

@@ -124,8 +124,8 @@ Windows windowsOf(const Heights& heights) {
 }
 
 struct Plane {
-  double p = 0, q = 0;  // slopes along i and j
-  double weight = 0;    // 0: columns that do not span a plane
+  std::array<double, 2> slope{};   // along i and j
+  std::array<double, 2> weight{};  // of each; 0: columns that do not span a plane
 };
 
 /// Least squares.
@@ -142,14 +142,16 @@ Plane planeThrough(const Moments& m) {
   const double determinant = ii * jj - ij * ij;
   constexpr double kLeastSpread = 1e-6;  // of integers: it is 0 or larger by far
   if (determinant < kLeastSpread) return plane;
-  plane.p = (ih * jj - jh * ij) / determinant;
-  plane.q = (jh * ii - ih * ij) / determinant;
+  plane.slope = {(ih * jj - jh * ij) / determinant, (jh * ii - ih * ij) / determinant};
   const double hh = m.hh - m.h * m.h / n;
-  const double misfit = std::max(0.0, hh - plane.p * ih - plane.q * jh) / n;
-  // Rounding alone leaves a misfit of 1/12, an edge of 45 degrees three times as much.
-  constexpr double kSoftness = 0.05;
-  const double small = 1 / (1 + misfit / kSoftness);
-  plane.weight = n * small * small * small * small;
+  const double misfit = (hh - plane.slope[0] * ih - plane.slope[1] * jh) / n;
+  // Rounding alone leaves a misfit of about 1/12, half of it or less where it is lucky, and slopes
+  // a variance by their spread; an edge of 45 degrees leaves three times the misfit.
+  constexpr double kLuck = 0.04;
+  constexpr double kSoftness = 0.1;
+  const double small = 1 / (1 + std::max(0.0, misfit - kLuck) / kSoftness);
+  const double fit = small * small * small * small;
+  plane.weight = {ii * fit, jj * fit};
   return plane;
 }
 
@@ -162,20 +164,19 @@ Moments momentsOver(const Blocks& blocks, std::size_t i0, std::size_t i1, std::s
   return all;
 }
 
-/// A one-sided difference sees half as much and bends with a curved surface: it has to fit far
-/// better before it counts.
-constexpr double kTrustInCentral = 16;
+/// A one-sided difference bends with a curved surface: it has to fit better before it counts.
+constexpr double kTrustInCentral = 4;
 
 struct Differences {
   Plane backward, central, forward, wide;
 
   /// Their slopes as one.
-  double mixed(double Plane::*slope) const {
+  double mixed(std::size_t axis) const {
     double sum = 0;
     double weights = 0;
     const auto add = [&](const Plane& plane, double trust) {
-      sum += trust * plane.weight * (plane.*slope);
-      weights += trust * plane.weight;
+      sum += trust * plane.weight[axis] * plane.slope[axis];
+      weights += trust * plane.weight[axis];
     };
     add(backward, 1);
     add(central, kTrustInCentral);
@@ -204,8 +205,8 @@ Estimate estimateIn(Voxels& voxels, const HeightFrame& frame) {
                               planeThrough(momentsOver(blocks, 0, 2, 1, 2)), wide};
   Estimate estimate;
   estimate.normal[frame.up] = frame.sign;
-  estimate.normal[frame.u] = -alongU.mixed(&Plane::p);
-  estimate.normal[frame.v] = -alongV.mixed(&Plane::q);
+  estimate.normal[frame.u] = -alongU.mixed(0);
+  estimate.normal[frame.v] = -alongV.mixed(1);
   estimate.normal.normalize();
   estimate.columns = all.n;
   estimate.score = all.n * std::abs(estimate.normal[frame.up]);
