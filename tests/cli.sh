@@ -149,7 +149,7 @@ expect 4 'memory' render cube.vdb -o out.png --size 9999x9999 --max-memory 1M
 expect 5 'nowhere' render cube.vdb -o nowhere/out.png
 expect 0 'cube.png: 60 x 40 pixels' render cube.vdb -o cube.png --size 60x40
 expect 5 'force' render cube.vdb -o cube.png --size 60x40
-expect 0 'cube.png: 40 x 60 pixels' render cube.vdb -o cube.png --size 20x20 --views front,top,30,20,-10,-20,iso --force --background transparent --projection perspective --samples 1 --occlusion 0
+expect 0 'cube.png: 60 x 40 pixels' render cube.vdb -o cube.png --size 20x20 --views front,top,30,20,-10,-20,iso --force --background transparent --projection perspective --samples 1 --occlusion 0
 expect 0 '' render cube.vdb -o a.png --size 90x70 --threads 1
 expect 0 '' render cube.vdb -o b.png --size 90x70 --threads 3
 cmp -s a.png b.png || fail "render: pictures differ"
