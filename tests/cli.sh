@@ -122,10 +122,47 @@ expect 5 'regular' convert good.obj -o fifo.vdb --force
 "$vox" convert good.obj -o - --dim 8 >/dev/full 2>stderr
 [ $? -eq 5 ] || fail "a full disk behind stdout: $(cat stderr)"
 
+# Pictures.
+"$vox" convert "$scenes/cube.toml" -o cube.vdb --dim 16 --quiet
+head -c 2000 cube.vdb >cut.vdb
+head -c 2000 /dev/urandom >noise.vdb
+expect 2 'out.jpg: .*\.png' render good.obj -o out.jpg
+expect 2 'unknown option --sice; did you mean --size?' render good.obj -o out.png --sice 3x3
+expect 2 'size' render good.obj -o out.png --size 30
+expect 2 'size' render good.obj -o out.png --size 0x30
+expect 2 'width.*16384' render good.obj -o out.png --size 99999x30
+expect 2 'view.*front' render good.obj -o out.png --view sideways
+expect 2 'elevation' render good.obj -o out.png --view 30
+expect 2 'background' render good.obj -o out.png --background '#12345'
+expect 2 'shading.*congradient' render good.obj -o out.png --shading gouraud
+expect 2 'projection' render good.obj -o out.png --projection fisheye
+expect 2 'up' render good.obj -o out.png --up x
+expect 2 '--dim is for meshes' render cube.vdb -o out.png --dim 30
+expect 2 '--threshold is for .vdb' render good.obj -o out.png --threshold 1
+expect 3 'missing.vdb: .*no such file' render missing.vdb -o out.png
+expect 3 'cut.vdb: ' render cut.vdb -o out.png
+expect 3 'noise.vdb: ' render noise.vdb -o out.png
+expect 3 'no grid fog; there are density' render cube.vdb -o out.png --grid fog
+expect 3 'threshold' render cube.vdb -o out.png --threshold 2
+expect 3 'nan.obj:1: ' render nan.obj -o out.png
+expect 4 'memory' render cube.vdb -o out.png --size 9999x9999 --max-memory 1M
+expect 5 'nowhere' render cube.vdb -o nowhere/out.png
+expect 0 'cube.png: 60 x 40 pixels' render cube.vdb -o cube.png --size 60x40
+expect 5 'force' render cube.vdb -o cube.png --size 60x40
+expect 0 'cube.png: 60 x 40 pixels' render cube.vdb -o cube.png --size 20x20 --views front,top,30,20,-10,-20,iso --force --background transparent --projection perspective --samples 1 --occlusion 0
+expect 0 '' render cube.vdb -o a.png --size 90x70 --threads 1
+expect 0 '' render cube.vdb -o b.png --size 90x70 --threads 3
+cmp -s a.png b.png || fail "render: pictures differ"
+expect 0 '' render "$scenes/cube.toml" -o b.png --dim 16 --size 90x70 --force
+cmp -s a.png b.png || fail "render: the picture of a scene is not that of its .vdb file"
+"$vox" render cube.vdb -o - --size 90x70 2>/dev/null | cmp -s - a.png || fail "render: stdout differs"
+"$vox" render cube.vdb -o - >/dev/full 2>stderr
+[ $? -eq 5 ] || fail "render: a full disk behind stdout: $(cat stderr)"
+
 # What works.
 expect 0 '' --help
 expect 0 '' --version
-for command in convert subdivide info diff check; do
+for command in convert subdivide info diff check render; do
   expect 0 '' $command --help
 done
 expect 0 'active voxels' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask
@@ -538,6 +575,8 @@ for number in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
     assert open("bar.vdb").read() == "old"
 code, output = run(["subdivide", scenes + "/torus.toml", "-o", "bar.obj", "--levels", "8"], b"write", signal.SIGINT)
 assert code == 130 and not os.path.exists("bar.obj"), (code, output)
+code, output = run(["render", scenes + "/cube.toml", "-o", "bar.png", "--size", "4000x4000", "--samples", "8"], b"render", signal.SIGINT)
+assert code == 130 and not os.path.exists("bar.png"), (code, output)
 assert not [name for name in os.listdir() if name.endswith(".part")]
 PY
 

@@ -83,11 +83,9 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 success, 1 diff or check says no, 2 usage, 3 bad input, 4 cannot be\n"
       "done within limits, 5 output cannot be written, 70 internal error, 130 interrupted.");
-  const std::vector<std::pair<const char*, Action>> actions = {{"convert", addConvert(app)},
-                                                               {"subdivide", addSubdivide(app)},
-                                                               {"info", addInfo(app)},
-                                                               {"diff", addDiff(app)},
-                                                               {"check", addCheck(app)}};
+  const std::vector<std::pair<const char*, Action>> actions = {
+      {"convert", addConvert(app)}, {"subdivide", addSubdivide(app)}, {"info", addInfo(app)},
+      {"diff", addDiff(app)},       {"check", addCheck(app)},         {"render", addRender(app)}};
 
   try {
     app.parse(argc, argv);
