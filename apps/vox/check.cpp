@@ -99,7 +99,7 @@ ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const Options& optio
   ConvertOptions made;
   made.smoothing = parseSmoothing(options.smoothing);
   made.weldTolerance = options.weldTolerance;
-  if (!options.until.empty()) made.until = parseUntil({options.until, {}});
+  if (!options.until.empty()) made.until = parseUntil({{options.until}, {}, {}});
   std::istringstream words(metadataOf(grid, "vox_options"));
   for (std::string word; words >> word;) {
     const std::size_t equals = std::min(word.find('='), word.size() - 1);
@@ -111,6 +111,9 @@ ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const Options& optio
       made.smoothing.interpolate = interpolateNamed(value);
     if (key == "weld" && !made.weldTolerance) made.weldTolerance = std::stod(value);
     if (key == "until" && !made.until) made.until = stopRuleNamed(value);
+    if (key == "voxelize") made.voxelize = voxelizeNamed(value);
+    if (key == "up") made.volume.up = namedIn(kUpAxisNames, value);
+    if (key == "target") made.volume.target = namedIn(kTargetNames, value);
     if (key == "interpolated-vertices" && !made.smoothing.interpolatedVertices)
       throw UsageError(options.file +
                        ": was made with --interpolate-vertices; give the same file here");

@@ -37,9 +37,15 @@ ReferenceSurface referenceOf(const Scene& scene, const SceneObject& object,
                              Progress& progress) {
   PreparedObject prepared = prepare(scene, object, options, budget, progress);
   SubdivisionLevel level = std::move(prepared.base);
-  const GridTransform transform = transformForVoxelSize(*options.voxelSize);
+  GridTransform transform = transformForVoxelSize(*options.voxelSize);
+  transform.turn = turnOf(overriding(options.volume, scene.volume));
   for (Vec3d& point : level.mesh.points) point = transform.toIndex(point);
   const StopRule until = stopRuleOf(object, scene, options);
+  if (!until.untilVoxel() && until != StopRule{until.levels})
+    throw UsageError(object.name +
+                     ": only voxels made with --until voxel or levels=K can be held "
+                     "against the mesh, not " +
+                     stopRuleName(until));
   if (until.levels) {
     level = subdividedWithin(budget, std::move(level), *until.levels, progress);
     return {std::move(level.mesh), std::move(level.adjacency), 0};
