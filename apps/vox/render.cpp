@@ -103,7 +103,7 @@ RenderOptions parse(const Options& options) {
     throw UsageError(options.output + ": the output of vox render must end in .png");
   RenderOptions parsed;
   parsed.views = parseViews(options.views);
-  parsed.up = chosen("--up", upAxisNamed(options.up), options.up, "y, z");
+  parsed.up = chosen("--up", namedIn(kUpAxisNames, options.up), options.up, "y, z");
   parsed.projection = chosen("--projection", projectionNamed(options.projection),
                              options.projection, allProjectionNames());
   parsed.shading.shading =

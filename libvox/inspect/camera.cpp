@@ -98,12 +98,6 @@ std::vector<View> parseViews(const std::string& text) {
   return views;
 }
 
-std::optional<UpAxis> upAxisNamed(std::string_view name) {
-  if (name == "y") return UpAxis::kY;
-  if (name == "z") return UpAxis::kZ;
-  return std::nullopt;
-}
-
 std::string projectionName(Projection projection) {
   return projection == Projection::kOrthographic ? "orthographic" : "perspective";
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/types.h"
+#include "libvox/grid/volume_options.h"
 
 #include <array>
 #include <limits>
@@ -27,11 +28,8 @@ std::string allViewNames();
 /// @throws UsageError
 std::vector<View> parseViews(const std::string& text);
 
-/// The axis of the world that is up in pictures. Z: the front is seen along +y, x to the right, as
-/// in Blender. Y: along -z, x to the right, as mesh files of other programs often have it.
-enum class UpAxis { kY, kZ };
-/// Value of "y" or "z", or nothing.
-std::optional<UpAxis> upAxisNamed(std::string_view name);
+// The axis of the world that is up in pictures. Z: the front is seen along +y, x to the right, as
+// in Blender. Y: along -z, x to the right, as mesh files of other programs often have it.
 
 enum class Projection { kOrthographic, kPerspective };
 /// "orthographic"

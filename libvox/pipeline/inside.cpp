@@ -88,10 +88,11 @@ PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>&
     base = baseLevel(submeshOf(surface.base.mesh, faces),
                      extends ? BoundaryRule::kExtend : BoundaryRule::kFree);
   }
-  if (!surface.until.levels) return limitPolygons(std::move(base), tolerance, budget, progress);
+  const StopRule& until = surface.way.until;
+  const bool ofLevel = surface.way.polygons && until.levels && until == StopRule{until.levels};
+  if (!ofLevel) return limitPolygons(std::move(base), tolerance, budget, progress);
   Progress unwatched;
-  return triangulated(
-      subdividedWithin(budget, std::move(base), *surface.until.levels, unwatched).mesh);
+  return triangulated(subdividedWithin(budget, std::move(base), *until.levels, unwatched).mesh);
 }
 
 void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
