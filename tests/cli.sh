@@ -153,7 +153,7 @@ expect 0 'cube.png: 60 x 40 pixels' render cube.vdb -o cube.png --size 20x20 --v
 expect 0 '' render cube.vdb -o a.png --size 90x70 --threads 1
 expect 0 '' render cube.vdb -o b.png --size 90x70 --threads 3
 cmp -s a.png b.png || fail "render: pictures differ"
-expect 0 '' render "$scenes/cube.toml" -o b.png --dim 16 --size 90x70 --force
+expect 0 '' render "$scenes/cube.toml" -o b.png --dim 16 --size 90x70 --force --shading congradient
 cmp -s a.png b.png || fail "render: the picture of a scene is not that of its .vdb file"
 "$vox" render cube.vdb -o - --size 90x70 2>/dev/null | cmp -s - a.png || fail "render: stdout differs"
 "$vox" render cube.vdb -o - >/dev/full 2>stderr

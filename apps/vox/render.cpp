@@ -44,6 +44,7 @@ struct Options {
   std::optional<double> weldTolerance;
   std::optional<bool> strict;
   SubmeshArguments submeshes;
+  std::string texture;
   std::vector<const CLI::Option*> meshOptions;  // all of these
   std::vector<const CLI::Option*> gridOptions;  // those of .vdb files
   CommonOptions common;
@@ -124,19 +125,33 @@ void refuse(const std::vector<const CLI::Option*>& given, const std::string& inp
     if (option->count() > 0) throw UsageError(input + ": " + option->get_name() + why);
 }
 
-ConvertOptions parseConversion(const Options& options, Progress& progress) {
+bool hasColors(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& object) {
+    return object.texture || !object.mesh.pointColors.empty() || !object.mesh.faceColors.empty();
+  });
+}
+
+/// What a picture takes.
+std::vector<GridKind> gridsFor(const RenderOptions& options, bool colored) {
+  std::vector grids = {GridKind::kMask};
+  if (options.shading.shading == Shading::kNormals) grids.push_back(GridKind::kNormal);
+  if (colored) grids.push_back(GridKind::kColor);
+  return grids;
+}
+
+ConvertOptions parseConversion(const Options& options) {
   ConvertOptions parsed;
   parsed.dim = options.resolution.dim;
   parsed.voxelSize = options.resolution.voxelSize;
   parsed.smoothing = parseSmoothing(options.smoothing);
   parsed.until = parseUntil(options.voxelization);
+  parsed.voxelize = parseVoxelize(options.voxelization);
   parsed.separation = parseSeparation(options.voxelization);
   parsed.weldTolerance = options.weldTolerance;
   parsed.strict = options.strict;
   parsed.surface = parseSubmeshes(options.submeshes);
-  parsed.grids = std::vector{GridKind::kMask};
+  if (!options.texture.empty()) parsed.texture = parseTexture(options.texture);
   parsed.run = options.common.run;
-  parsed.run.progress = &progress;
   return parsed;
 }
 
@@ -170,13 +185,15 @@ int run(const Options& options) {
   ProgressBar bar(!options.common.quiet);
   Progress progress(bar.callback());
   renderOptions.progress = &progress;
-  const ConvertOptions convertOptions = parseConversion(options, progress);
+  ConvertOptions convertOptions = parseConversion(options);
+  convertOptions.run.progress = &progress;
   Scene scene;
   if (isVdb)
     scene.files = {options.input};
   else
     scene = readScene(options.input);
   requireOutput(options.output, options.common, scene);
+  convertOptions.grids = gridsFor(renderOptions, convertOptions.texture || hasColors(scene));
   Conversion conversion;
   Image image;
   {
@@ -250,6 +267,12 @@ void addMeshOptions(CLI::App& command, Options& options) {
   addWeldOption(command, options.weldTolerance);
   addStrictOption(command, options.strict);
   addSubmeshOptions(command, options.submeshes);
+  command
+      .add_option("--texture", options.texture,
+                  "Solid texture of all objects, as for vox convert (default: the scene's, or the "
+                  "colours of the mesh)")
+      ->type_name("SPEC")
+      ->group("Texture");
   const auto all = command.get_options();
   options.meshOptions.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
 }
