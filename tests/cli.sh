@@ -122,10 +122,47 @@ expect 5 'regular' convert good.obj -o fifo.vdb --force
 "$vox" convert good.obj -o - --dim 8 >/dev/full 2>stderr
 [ $? -eq 5 ] || fail "a full disk behind stdout: $(cat stderr)"
 
+# Pictures.
+"$vox" convert "$scenes/cube.toml" -o cube.vdb --dim 16 --quiet
+head -c 2000 cube.vdb >cut.vdb
+head -c 2000 /dev/urandom >noise.vdb
+expect 2 'out.jpg: .*\.png' render good.obj -o out.jpg
+expect 2 'unknown option --sice; did you mean --size?' render good.obj -o out.png --sice 3x3
+expect 2 'size' render good.obj -o out.png --size 30
+expect 2 'size' render good.obj -o out.png --size 0x30
+expect 2 'width.*16384' render good.obj -o out.png --size 99999x30
+expect 2 'view.*front' render good.obj -o out.png --view sideways
+expect 2 'elevation' render good.obj -o out.png --view 30
+expect 2 'background' render good.obj -o out.png --background '#12345'
+expect 2 'shading.*congradient' render good.obj -o out.png --shading gouraud
+expect 2 'projection' render good.obj -o out.png --projection fisheye
+expect 2 'up' render good.obj -o out.png --up x
+expect 2 '--dim is for meshes' render cube.vdb -o out.png --dim 30
+expect 2 '--threshold is for .vdb' render good.obj -o out.png --threshold 1
+expect 3 'missing.vdb: .*no such file' render missing.vdb -o out.png
+expect 3 'cut.vdb: ' render cut.vdb -o out.png
+expect 3 'noise.vdb: ' render noise.vdb -o out.png
+expect 3 'no grid fog; there are density' render cube.vdb -o out.png --grid fog
+expect 3 'threshold' render cube.vdb -o out.png --threshold 2
+expect 3 'nan.obj:1: ' render nan.obj -o out.png
+expect 4 'memory' render cube.vdb -o out.png --size 9999x9999 --max-memory 1M
+expect 5 'nowhere' render cube.vdb -o nowhere/out.png
+expect 0 'cube.png: 60 x 40 pixels' render cube.vdb -o cube.png --size 60x40
+expect 5 'force' render cube.vdb -o cube.png --size 60x40
+expect 0 'cube.png: 60 x 40 pixels' render cube.vdb -o cube.png --size 20x20 --views front,top,30,20,-10,-20,iso --force --background transparent --projection perspective --samples 1 --occlusion 0
+expect 0 '' render cube.vdb -o a.png --size 90x70 --threads 1
+expect 0 '' render cube.vdb -o b.png --size 90x70 --threads 3
+cmp -s a.png b.png || fail "render: pictures differ"
+expect 0 '' render "$scenes/cube.toml" -o b.png --dim 16 --size 90x70 --force
+cmp -s a.png b.png || fail "render: the picture of a scene is not that of its .vdb file"
+"$vox" render cube.vdb -o - --size 90x70 2>/dev/null | cmp -s - a.png || fail "render: stdout differs"
+"$vox" render cube.vdb -o - >/dev/full 2>stderr
+[ $? -eq 5 ] || fail "render: a full disk behind stdout: $(cat stderr)"
+
 # What works.
 expect 0 '' --help
 expect 0 '' --version
-for command in convert subdivide info diff check; do
+for command in convert subdivide info diff check render; do
   expect 0 '' $command --help
 done
 expect 0 'active voxels' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask
@@ -219,11 +256,84 @@ for until in voxels levels levels=31 levels=-1 levels=two; do
   expect 2 '--until must be one of voxel, levels=K' convert good.obj -o out.vdb --until "$until"
 done
 expect 2 "--separating must be 6 or 26, not '18'" convert good.obj -o out.vdb --separating 18
-expect 2 'give --until levels=K' convert good.obj -o out.vdb --separating 26
-expect 2 'give --until levels=K' convert good.obj -o out.vdb --separating 26 --until voxel
+for until in diameter=0 angle=181 flatness=-1 levels=1,, diameter=nan diameter; do
+  expect 2 '--until must be one of voxel, levels=K' convert good.obj -o out.vdb --until "$until"
+done
+expect 2 "needs --until voxel, not angle=5" convert good.obj -o out.vdb --until angle=5 --voxelize vertex
+expect 2 'cannot make 26-separating' convert good.obj -o out.vdb --separating 26 --voxelize vertex
+expect 2 '--voxelize must be one of auto, vertex, polygon' convert good.obj -o out.vdb --voxelize all
+expect 0 '' convert "$scenes/cube.obj" -o smooth26.vdb --dim 32 --separating 26 --verbose
+grep -q 'until flatness=0.1' stderr || fail "26-separating until voxel: $(cat stderr)"
+expect 0 '' convert "$scenes/cube.obj" -o limits.vdb --dim 32 --until angle=5,diameter=4 --until flatness=0.5 --verbose
+grep -q 'until diameter=4,angle=5,flatness=0.5' stderr || fail "limits: $(cat stderr)"
+printf '[convert]\ndim = 32\nvoxelize = "polygon"\n[[object]]\nuntil = { angle = 5, diameter = 4 }\n%s\n' "$cube" >limits.toml
+expect 0 '' convert limits.toml -o limits.vdb --force --verbose
+grep -q 'until diameter=4,angle=5' stderr || fail "limits of a scene: $(cat stderr)"
+expect 4 'larger limit' convert "$scenes/cube.obj" -o out.vdb --until diameter=1e-6
 printf '[convert]\nuntil = { levels = 31 }\n[[object]]\n%s\n' "$cube" >until.toml
 expect 3 'until.toml:2:20: levels must lie between 0 and 30' convert until.toml -o out.vdb
 expect 4 'use fewer levels' convert "$scenes/cube.obj" -o out.vdb --until levels=30 --max-memory 256M
+
+# Solid textures: from the scene, or of all objects.
+printf '[convert]\ndim = 8\ngrids = ["color"]\n[[object]]\n%s\ntexture = { kind = "checker", scale = 0.5, colors = ["#ff0000", [0, 0, 1]] }\n' "$cube" >texture.toml
+expect 0 'active voxels' convert texture.toml -o color.vdb
+expect 0 'active voxels' convert texture.toml -o color2.vdb --texture 'checker:scale=0.5,colors=1:0:0/0:0:1'
+expect 0 '' info color.vdb color2.vdb
+grep -q 'grid color: Tree_vec3s_5_4_3' stdout || fail "no color: $(cat stdout)"
+grep -q 'vox_options.*texture=checker:scale=0.5,colors=1:0:0/0:0:1' stdout || fail "no texture in the metadata: $(cat stdout)"
+expect 0 '' convert "$scenes/cube.obj" -o color3.vdb --dim 8 --texture marble
+expect 0 '' info color3.vdb
+[ "$(grep -c 'grid density\|grid color' stdout)" -eq 2 ] || fail "--texture does not bring the color grid: $(cat stdout)"
+expect 2 "unknown texture 'marbel'; known are checker" convert good.obj -o out.vdb --texture marbel
+expect 2 "texture checker has no 'size'; it has scale, space, colors" convert good.obj -o out.vdb --texture checker:size=1
+expect 2 '--texture needs color among --grids' convert good.obj -o out.vdb --texture checker --grids mask
+texture_error() {  # PATTERN TEXTURE
+  printf '[[object]]\n%s\ntexture = %s\n' "$cube" "$2" >texture.toml
+  expect 3 "texture.toml:3:$1" convert texture.toml -o out.vdb
+}
+texture_error "[0-9]+: unknown texture 'wood'" '"wood"'
+texture_error '11: texture must be a string' 7
+texture_error '11: a texture needs a kind' '{ scale = 1 }'
+texture_error "[0-9]+: texture marble: scale must be a number above 0, not '-1'" '{ kind = "marble", scale = -1 }'
+texture_error '[0-9]+: texture marble has no .size.; it has scale' '{ kind = "marble", size = 1 }'
+texture_error '[0-9]+: .*colors must be 2 to 16' '{ kind = "marble", colors = [[1, 0, 0]] }'
+texture_error '[0-9]+: colors must be a number, a text or a list' '{ kind = "marble", colors = [1, [], {}] }'
+# Volumes: the command line goes before the scene.
+printf '[convert]\nfill = "solid"\ngain = 3\n[[object]]\nname = "block"\n%s\n' "$cube" >solid.toml
+expect 0 'active voxels' convert solid.toml -o solid.vdb --dim 64 --report solid.json
+expect 0 'active voxels' convert solid.toml -o shell.vdb --dim 64 --fill surface
+"$vox" info --json solid.vdb shell.vdb >info.json
+python3 - <<'PY' || fail "a solid"
+import json
+solid, shell = (file["grids"][0]["active_voxels"] for file in json.load(open("info.json")))
+# The smoothed cube lies between the ball of the same width and the cube, the shell counts for a bit.
+assert 0.52 * 64**3 < solid < 0.95 * 64**3 and shell < solid / 5, (solid, shell)
+assert json.load(open("solid.json"))["options"]["fill"] is None
+PY
+expect 2 "--fill must be one of surface, solid, not 'half'" convert good.obj -o out.vdb --fill half
+expect 2 "--open-mesh must be one of" convert good.obj -o out.vdb --open-mesh maybe
+expect 2 'gain must lie between' convert good.obj -o out.vdb --gain 0
+expect 2 'gain' convert good.obj -o out.vdb --gain lots
+expect 3 'good: 1 of its 1 component has no inside; the first, of 1 face, is open at .*--open-mesh' convert good.obj -o out.vdb --fill solid --open-mesh error
+expect 0 '' convert good.obj -o good.vdb --fill solid --dim 16
+grep -q 'warning: good: 1 of its 1 component has no inside' stderr || fail "open: $(cat stderr)"
+
+for wrong in '--compression lzma' '--target maya' '--up x'; do
+  # shellcheck disable=SC2086
+  expect 2 "${wrong% *} must be one of .*, not '${wrong#* }'" convert good.obj -o out.vdb $wrong
+done
+printf '[convert]\nhalf = true\ntarget = "houdini"\nup = "z"\ncompression = "zip"\n[[object]]\n%s\n' "$cube" >file.toml
+expect 0 'active voxels' convert file.toml -o file.vdb --dim 32
+expect 0 'active voxels' convert file.toml -o file2.vdb --dim 32 --half=false --compression none
+[ "$(stat -c %s file.vdb)" -lt "$(stat -c %s file2.vdb)" ] || fail "half floats and zip do not save space"
+
+printf '[convert]\ngrids = ["surface"]\nband = 4\ntolerance = 0.2\n[[object]]\n%s\n' "$cube" >level.toml
+expect 0 'active voxels' convert level.toml -o level.vdb --dim 32
+"$vox" info level.vdb | grep -q 'grid surface: .*level set' || fail "no level set"
+expect 0 'active voxels' convert level.toml -o level.vdb --dim 32 --grids surface,density,mask --band 3 --force
+expect 2 'the band must lie between 1 and 1000, not 0.2' convert good.obj -o out.vdb --band 0.2 --grids surface
+expect 2 'the tolerance must lie' convert good.obj -o out.vdb --tolerance 0 --grids surface
+expect 4 'memory' convert "$scenes/cube.toml" -o out.vdb --grids surface --dim 3000 --max-memory 256M
 
 # Faults of a mesh are repaired, and told.
 expect 0 '' convert winding.obj -o winding.vdb --dim 8
@@ -465,6 +575,8 @@ for number in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
     assert open("bar.vdb").read() == "old"
 code, output = run(["subdivide", scenes + "/torus.toml", "-o", "bar.obj", "--levels", "8"], b"write", signal.SIGINT)
 assert code == 130 and not os.path.exists("bar.obj"), (code, output)
+code, output = run(["render", scenes + "/cube.toml", "-o", "bar.png", "--size", "4000x4000", "--samples", "8"], b"render", signal.SIGINT)
+assert code == 130 and not os.path.exists("bar.png"), (code, output)
 assert not [name for name in os.listdir() if name.endswith(".part")]
 PY
 

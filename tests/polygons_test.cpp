@@ -1,11 +1,15 @@
 #include "libvox/pipeline/polygons.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
+#include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/convert.h"
+#include "libvox/pipeline/refined_polygons.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "tests/reference.h"
 #include "tests/shapes.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <openvdb/openvdb.h>
 
@@ -289,7 +293,8 @@ TEST_CASE("one object may stay polygons while another is smoothed", "[polygons]"
   CHECK_FALSE(maskOf(conversion).tree().isValueOn(Coord(20, 4, 4)));  // is rounded off the second
   CHECK(maskOf(conversion).tree().isValueOn(Coord(20, 0, 0)));
   options.separation = Separation::k26;
-  CHECK_THROWS_WITH(convert(scene, options), Contains("smooth") && Contains("--until levels=K"));
+  options.voxelize = Voxelize::kVertex;
+  CHECK_THROWS_WITH(convert(scene, options), Contains("object") && Contains("needs --until voxel"));
 }
 
 TEST_CASE("an open mesh left as it is does not shrink, and nobody says so", "[polygons]") {
@@ -319,10 +324,17 @@ TEST_CASE("polygons that cannot be had are refused", "[polygons][error]") {
     CHECK_THROWS_AS(convert(scene, options), UsageError);
   }
   options.until.reset();
-  CHECK_THROWS_WITH(convert(scene, options), Contains("give --until levels=K"));
+  options.voxelize = Voxelize::kVertex;
+  CHECK_THROWS_WITH(convert(scene, options), Contains("cannot make 26-separating"));
+  options.voxelize.reset();
+  for (const StopRule& rule :
+       {StopRule{{}, 0.0}, StopRule{{}, {}, 181.0}, StopRule{{}, {}, {}, -1.0}}) {
+    options.until = rule;
+    CHECK_THROWS_AS(convert(scene, options), UsageError);
+  }
   options.until = StopRule{kMostLevels};
   options.run.maxMemory = std::uint64_t{100} << 20U;
-  CHECK_THROWS_WITH(convert(scene, options), Contains("level") && Contains("use fewer levels"));
+  CHECK_THROWS_WITH(convert(scene, options), Contains("vertices") && Contains("use fewer levels"));
 }
 
 TEST_CASE("a grid of polygons keeps to the memory that the mesh leaves", "[polygons][error]") {
@@ -330,7 +342,108 @@ TEST_CASE("a grid of polygons keeps to the memory that the mesh leaves", "[polyg
   SurfaceGrid grid;
   PolygonReport report;
   Progress unwatched;
-  CHECK_THROWS_AS(
-      markPolygons(base, 0, Separation::k6, MemoryBudget(20000), unwatched, grid, report),
-      LimitError);
+  CHECK_THROWS_AS(markPolygons(base, StopRule{0}, {}, Separation::k6, MemoryBudget(20000),
+                               unwatched, grid, report),
+                  LimitError);
+}
+
+TEST_CASE("voxels of refined polygons are the same for every cut and any threads",
+          "[polygons][parallel]") {
+  const std::vector<StopRule> rules = {StopRule{4}, StopRule{{}, 3.0}, StopRule{{}, {}, 4.0},
+                                       StopRule{{}, {}, {}, 0.1}};
+  for (const PolygonMesh& mesh : {test::prism(12), test::torusGrid(4, 32), test::sheet(5, 4)})
+    for (const StopRule& rule : rules) {
+      CAPTURE(stopRuleName(rule));
+      ConvertOptions options = polygonsAt(0.01, 0, Separation::k6);
+      options.until = rule;
+      options.surface.submeshFaces = 1;
+      options.run.threads = 1;
+      const std::string alone = bytesOf(convert(sceneOf(mesh), options));
+      options.surface.submeshFaces = kDefaultSubmeshFaces;
+      options.run.threads = 8;
+      CHECK(bytesOf(convert(sceneOf(mesh), options)) == alone);
+      if (rule != StopRule{4}) continue;
+      // The plain algorithm differs in the last bits of its points.
+      options.surface.localize = Localize::kOff;
+      const Conversion whole = convert(sceneOf(mesh), options);
+      options.surface.localize = Localize::kDuring;
+      const Conversion local = convert(sceneOf(mesh), options);
+      CHECK(whole.report.objects[0].polygons.triangles ==
+            local.report.objects[0].polygons.triangles);
+      CHECK(farVoxels(maskOf(whole), maskOf(local), 1) == 0);
+      CHECK(farVoxels(maskOf(local), maskOf(whole), 1) == 0);
+    }
+}
+
+TEST_CASE("polygons of every rule separate inside from outside as asked", "[polygons][property]") {
+  for (const StopRule& rule :
+       {StopRule{{}, 3.0}, StopRule{{}, {}, 10.0}, StopRule{{}, {}, {}, 0.1}, StopRule{2, 1.0}})
+    for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::prism(7)})
+      for (const Separation separation : {Separation::k6, Separation::k26}) {
+        CAPTURE(stopRuleName(rule));
+        ConvertOptions options = polygonsAt(0.05, 0, separation);
+        options.until = rule;
+        const Conversion conversion = convert(sceneOf(mesh), options);
+        const Coord centre =
+            Coord::round(openvdb::Vec3d((test::centroid(mesh.points) / 0.05).eval().data()));
+        REQUIRE_FALSE(maskOf(conversion).tree().isValueOn(centre));
+        CHECK_FALSE(isOpen(maskOf(conversion), separation, centre));
+      }
+}
+
+TEST_CASE("vertices lie in the 26-separating voxels of the polygons that fit into voxels",
+          "[polygons][property]") {
+  for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::pyramid(9)}) {
+    ConvertOptions options = polygonsAt(0.03, 0, Separation::k6);
+    options.until = StopRule();
+    const Conversion vertices = convert(sceneOf(mesh), options);
+    options.separation = Separation::k26;
+    options.voxelize = Voxelize::kPolygon;
+    const Conversion polygons = convert(sceneOf(mesh), options);
+    CHECK(polygons.report.objects[0].byPolygons);
+    // A vertex of the one need not be a vertex of the other: both are within 0.1 of the surface.
+    CHECK(farVoxels(maskOf(vertices), maskOf(polygons), 1) == 0);
+    CHECK(farVoxels(maskOf(polygons), maskOf(vertices), 1) == 0);
+    options.voxelize.reset();
+    const Conversion automatic = convert(sceneOf(mesh), options);
+    CHECK(automatic.report.objects[0].until == StopRule{{}, {}, {}, kAutomaticFlatness});
+    CHECK(farVoxels(maskOf(vertices), maskOf(automatic), 1) == 0);
+    CHECK(farVoxels(maskOf(automatic), maskOf(vertices), 1) == 0);
+  }
+}
+
+TEST_CASE("a needle is converted by few polygons, and none of it is lost", "[polygons]") {
+  const PolygonMesh needle = test::meshOf({{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}, {0.5, 0.3, 4000}},
+                                          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  ConvertOptions options;
+  options.dim = 3000;
+  const Conversion conversion = convert(sceneOf(needle), options);
+  const ObjectReport& part = conversion.report.objects[0];
+  CHECK(part.byPolygons);
+  CHECK(part.polygons.triangles < 1000000);
+  // A smoothed tetrahedron keeps more than half of its length.
+  CHECK(part.activeVoxels > 1500);
+}
+
+TEST_CASE("triangles for others keep to the rule and are the same for any threads",
+          "[polygons][parallel]") {
+  SubdivisionLevel base = baseLevel(test::dodecahedron());
+  for (Vec3d& p : base.mesh.points) p *= 50;
+  Progress unwatched;
+  const StopRule flat = {.flatness = 0.1};
+  const auto make = [&] { return triangleSoup(base, flat, unwatched); };
+  const TriangleSoup soup = onThreads(1, make);
+  const TriangleSoup again = onThreads(8, make);
+  CHECK(soup.points == again.points);
+  CHECK(soup.triangles == again.triangles);
+  // Closed: the area vectors of the triangles add up to nothing.
+  Vec3d sum = Vec3d::Zero();
+  double area = 0;
+  for (const auto& [a, b, c] : soup.triangles) {
+    const Vec3d twice = (soup.points[b] - soup.points[a]).cross(soup.points[c] - soup.points[a]);
+    sum += twice;
+    area += twice.norm();
+  }
+  CHECK(area > 1000);
+  CHECK(sum.norm() < 1e-9 * area);
 }

@@ -309,3 +309,31 @@ TEST_CASE("coordinates out of range, triangles too long and what is no number ar
   const Corners longest = {Vec3d(-most, 0, 0), Vec3d(most, 0, 0), Vec3d(0, 0, 0)};
   CHECK_THROWS_WITH(scanned(longest, Separation::k26), Catch::Contains("longer"));
 }
+
+TEST_CASE("the parts of a large triangle are its voxels, each once", "[voxelize][property]") {
+  std::mt19937 random(29);
+  std::uniform_real_distribution<double> at(-700, 700);
+  int several = 0;
+  for (const Separation separation : {Separation::k6, Separation::k26})
+    for (int i = 0; i < 6; ++i) {
+      std::array<Vec3d, 3> corners;
+      for (Vec3d& p : corners)
+        p = Vec3d(at(random), at(random), i % 2 == 0 ? 0.01 * at(random) : at(random));
+      using Key = std::array<int, 3>;
+      std::vector<Key> whole;
+      std::vector<Key> parts;
+      const auto into = [](std::vector<Key>& voxels) {
+        return [&voxels](const VoxelBlock& block) {
+          forEachVoxel(block, [&](int x, int y, int z) { voxels.push_back({x, y, z}); });
+        };
+      };
+      scanTriangle(corners, separation, into(whole));
+      several += scanPartCount(corners) > 1;
+      for (std::int64_t part = 0; part < scanPartCount(corners); ++part)
+        scanTrianglePart(corners, part, separation, into(parts));
+      std::sort(whole.begin(), whole.end());
+      std::sort(parts.begin(), parts.end());
+      CHECK(whole == parts);
+    }
+  CHECK(several > 6);
+}

@@ -36,6 +36,7 @@ void checkRefused(const std::string& text, const std::string& where, const std::
 TEST_CASE("a scene gives settings and objects", "[scene]") {
   const Scene scene = read(
       "[convert]\ndim = 128\ngrids = ['mask', 'density']\nweld = 0.25\nstrict = true\n"
+      "fill = 'solid'\ngain = 30\nopen_mesh = 'error'\n"
       "[[object]]\nname = 't'\n" +
       kTriangle + "[[object]]\n" + kTriangle);
   CHECK(scene.dim == 128);
@@ -43,6 +44,9 @@ TEST_CASE("a scene gives settings and objects", "[scene]") {
   CHECK(scene.grids == std::vector{GridKind::kMask, GridKind::kDensity});
   CHECK(scene.weldTolerance == 0.25);
   CHECK(scene.strict == true);
+  CHECK(scene.volume.fill == Fill::kSolid);
+  CHECK(scene.volume.gain == 30);
+  CHECK(scene.volume.openMesh == OpenMesh::kError);
   REQUIRE(scene.objects.size() == 2);
   CHECK(scene.objects[0].name == "t");
   CHECK(scene.objects[1].name == "object 2");
@@ -146,8 +150,15 @@ TEST_CASE("what a scene gets wrong is named with line and column", "[scene][erro
   checkRefused("[convert]\nweld = -1\n", ":2:8:", "weld must be 0 or more");
   checkRefused("[convert]\nweld = 'all'\n", ":2:8:", "weld must be a number");
   checkRefused("[convert]\nuntil = 'levels=3'\n", ":2:9:", "until must be \"voxel\" or { levels");
+  checkRefused("[convert]\nfill = 'half'\n", ":2:8:", "fill must be one of surface, solid");
+  checkRefused("[convert]\nfill = 3\n", ":2:8:", "fill must be a string");
+  checkRefused("[convert]\nopen_mesh = 'no'\n", ":2:13:", "open_mesh must be one of error");
+  checkRefused("[convert]\ngain = 'x'\n", ":2:8:", "gain must be a number");
   checkRefused("[convert]\nuntil = {}\n", ":2:9:", "until must be \"voxel\" or { levels");
   checkRefused("[convert]\nuntil = { depth = 3 }\n", ":2:11:", "unknown key 'depth' in until");
+  checkRefused("[convert]\nuntil = { angle = 181 }\n", ":2:19:", "at most 180 degrees");
+  checkRefused("[convert]\nuntil = { flatness = 0 }\n", ":2:22:", "positive number of voxels");
+  checkRefused("[convert]\nvoxelize = 'all'\n", ":2:12:", "one of auto, vertex, polygon");
   checkRefused("[convert]\nuntil = { levels = 31 }\n", ":2:20:", "between 0 and 30, not 31");
   checkRefused(object + "until = 3\n", ":4:9:", "until must be \"voxel\" or { levels");
   checkRefused("[convert]\nstrict = 1\n", ":2:10:", "strict must be true or false");

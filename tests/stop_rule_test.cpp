@@ -5,7 +5,8 @@
 using namespace vox;
 
 TEST_CASE("a stop rule has the name it is found by", "[mesh]") {
-  for (const std::string name : {"voxel", "levels=0", "levels=7", "levels=30"}) {
+  for (const std::string name : {"voxel", "levels=0", "levels=7", "levels=30", "diameter=2.5",
+                                 "angle=180", "levels=3,diameter=4,angle=5,flatness=0.1"}) {
     const auto rule = stopRuleNamed(name);
     REQUIRE(rule.has_value());
     CHECK(stopRuleName(*rule) == name);
@@ -15,9 +16,17 @@ TEST_CASE("a stop rule has the name it is found by", "[mesh]") {
 }
 
 TEST_CASE("what is no stop rule is refused", "[mesh][error]") {
-  for (const std::string name : {"", "voxels", "levels", "levels=", "levels=-1", "levels=31",
-                                 "levels=1.5", "levels=3x", "levels= 3", "levels=99999999999"}) {
+  for (const std::string name :
+       {"", "voxels", "levels", "levels=", "levels=-1", "levels=31", "levels=1.5", "levels=3x",
+        "levels= 3", "levels=99999999999", "diameter=0", "diameter=inf", "angle=nan", "angle=181",
+        "flatness=", "levels=3,", ",levels=3", "depth=3"}) {
     CAPTURE(name);
     CHECK_FALSE(stopRuleNamed(name).has_value());
   }
+}
+
+TEST_CASE("of limits given twice the first to be met counts", "[mesh]") {
+  CHECK(stopRuleNamed("levels=5,levels=3") == StopRule{3});
+  CHECK(stopRuleNamed("diameter=2,diameter=4") == StopRule{{}, 4.0});
+  CHECK(stopRuleNamed("voxel,levels=3") == StopRule{3, 1.0});
 }

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 
 using namespace vox;
 using Catch::Contains;
@@ -212,4 +213,36 @@ TEST_CASE("a surface that is cancelled stops at the next submesh or split patch"
                       Cancelled);
       CHECK(calls < 3 + 40);  // of hundreds
     }
+}
+
+TEST_CASE("tasks that run out of memory at the same time end in one refusal",
+          "[pipeline][parallel][error]") {
+  const SubdivisionLevel base = largeCube();
+  for (int run = 0; run < 20; ++run) {
+    SurfaceGrid grid(std::uint64_t{1} << (20 + run % 4));
+    SurfaceReport report;
+    Progress unwatched;
+    const SurfaceOptions options{run % 2 == 0 ? Localize::kDuring : Localize::kBefore, 1};
+    const auto tooLarge = [&] {
+      onThreads(8, [&] {
+        markSurface(base, options, MemoryBudget(0), unwatched, grid, report);
+        return 0;
+      });
+    };
+    CHECK_THROWS_AS(tooLarge(), LimitError);
+  }
+}
+
+TEST_CASE("a smooth surface takes few vertices for each voxel", "[pipeline]") {
+  // Squares of half a voxel at the finest, three voxels for two of area (6-separating): less than
+  // 4 / 1.5; patches are as fine as their largest face asks for, which may be twice as fine.
+  for (const double size : {40.0, 61.0, 83.0}) {
+    const Marked marked = mark(scaled(test::torusGrid(32, 16), size), {});
+    const double vertices =
+        std::accumulate(marked.report.vertices.begin(), marked.report.vertices.end(), 0.0);
+    const auto voxels = static_cast<double>(marked.tree->activeVoxelCount());
+    CAPTURE(size);
+    CHECK(vertices / voxels < 16 / 1.5);
+    CHECK(vertices / voxels > 1);
+  }
 }

@@ -4,6 +4,7 @@
 
 #include "apps/bench/engine_bench.h"
 #include "apps/bench/inputs.h"
+#include "apps/bench/render_bench.h"
 #include "libvox/core/error.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/subdivide/doo_sabin.h"
@@ -111,6 +112,7 @@ int main(int argc, char** argv) {
     meshFiles.emplace_back(argv[i]);
   }
   bench::registerEngine(meshFiles);
+  bench::registerRender();
   registerConversions();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -15,5 +15,6 @@ Action addSubdivide(CLI::App& app);
 Action addInfo(CLI::App& app);
 Action addDiff(CLI::App& app);
 Action addCheck(CLI::App& app);
+Action addRender(CLI::App& app);
 
 }  // namespace vox::app

@@ -31,6 +31,8 @@ struct Options {
   std::optional<bool> strict;
   SubmeshArguments submeshes;
   std::string grids;
+  std::string texture;
+  VolumeArguments volume;
   std::string report;
   bool verify = false;
   CommonOptions common;
@@ -82,13 +84,22 @@ ConvertOptions parse(const Options& options) {
   parsed.voxelSize = options.resolution.voxelSize;
   parsed.smoothing = parseSmoothing(options.smoothing);
   parsed.until = parseUntil(options.voxelization);
+  parsed.voxelize = parseVoxelize(options.voxelization);
   parsed.separation = parseSeparation(options.voxelization);
   parsed.weldTolerance = options.weldTolerance;
   parsed.strict = options.strict;
+  parsed.volume = parseVolume(options.volume);
   parsed.surface = parseSubmeshes(options.submeshes);
   parsed.run = options.common.run;
   if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
+  if (!options.texture.empty()) parsed.texture = parseTexture(options.texture);
   return parsed;
+}
+
+/// The grids stay to the end of the process: to free millions of nodes takes longer than to end.
+Conversion& conversionOfProcess() {
+  static auto* const conversion = new Conversion;
+  return *conversion;
 }
 
 int run(const Options& options) {
@@ -101,7 +112,7 @@ int run(const Options& options) {
 
   Progress progress(bar.callback());
   convertOptions.run.progress = &progress;
-  Conversion conversion;
+  Conversion& conversion = conversionOfProcess();
   double writeSeconds = 0;
   {
     const CancelOnSignal cancelOnSignal(progress);
@@ -144,6 +155,15 @@ Action addConvert(CLI::App& app) {
           "Grids to write, with commas: " + allGridNames() + " (default: the scene's, or density)")
       ->type_name("LIST")
       ->group("Output");
+  command
+      ->add_option("--texture", options->texture,
+                   "Solid texture of all objects, in the grid color: " + allTextureNames() +
+                       "; with parameters: marble:scale=0.2,seed=3 (default: the scene's textures, "
+                       "or the colours of the meshes)")
+      ->type_name("KIND[:KEY=VALUE,...]")
+      ->group("Output");
+  addVolumeOptions(*command, options->volume);
+  addFileOptions(*command, options->volume);
   addSubmeshOptions(*command, options->submeshes);
   command
       ->add_option("--report", options->report,

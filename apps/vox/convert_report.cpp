@@ -28,6 +28,8 @@ Json toJson(const ObjectReport& object) {
   return {{"name", object.name},
           {"input_faces", object.inputFaces},
           {"submeshes", object.submeshes},
+          {"voxelized", object.byPolygons ? "polygons" : "vertices"},
+          {"until", object.byPolygons ? Json(stopRuleName(object.until)) : Json("voxel")},
           {"levels", object.levels},
           {"vertices", object.vertices},
           {"vertices_of_level", levels},
@@ -49,24 +51,52 @@ Json gridNames(const FinishedRun& run) {
   return names;
 }
 
+template <class Value>
+Json orNull(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json();
+}
+template <class Enum, std::size_t N>
+Json orNull(const NameTable<Enum, N>& names, const std::optional<Enum>& value) {
+  return value ? Json(nameIn(names, *value)) : Json();
+}
+
+Json toJson(const VolumeOptions& volume) {
+  return {{"fill", orNull(kFillNames, volume.fill)},
+          {"gain", orNull(volume.gain)},
+          {"open_mesh", orNull(kOpenMeshNames, volume.openMesh)},
+          {"band", orNull(volume.band)},
+          {"tolerance", orNull(volume.tolerance)},
+          {"half", orNull(volume.half)},
+          {"compression", orNull(kCompressionNames, volume.compression)},
+          {"target", orNull(kTargetNames, volume.target)},
+          {"up", orNull(kUpAxisNames, volume.up)}};
+}
+
 /// What was asked for; null where nothing was, and the scene or a default decided.
 Json optionsJson(const FinishedRun& run) {
   const ConvertOptions& options = run.options;
   const SmoothingOptions& smoothing = options.smoothing;
   const auto orNull = [](const auto& value) { return value ? Json(*value) : Json(); };
-  return {{"dim", orNull(options.dim)},
-          {"voxel_size", orNull(options.voxelSize)},
-          {"boundary", smoothing.boundary ? Json(boundaryRuleName(*smoothing.boundary)) : Json()},
-          {"interpolate",
-           smoothing.interpolate ? Json(interpolateName(*smoothing.interpolate)) : Json()},
-          {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
-          {"weld", orNull(options.weldTolerance)},
-          {"strict", orNull(options.strict)},
-          {"grids", options.grids ? gridNames(run) : Json()},
-          {"localize", localizeName(options.surface.localize)},
-          {"submesh_faces", options.surface.submeshFaces},
-          {"threads", options.run.threads > 0 ? Json(options.run.threads) : Json()},
-          {"max_memory", options.run.maxMemory > 0 ? Json(options.run.maxMemory) : Json()}};
+  Json json = {
+      {"dim", orNull(options.dim)},
+      {"voxel_size", orNull(options.voxelSize)},
+      {"boundary", smoothing.boundary ? Json(boundaryRuleName(*smoothing.boundary)) : Json()},
+      {"interpolate",
+       smoothing.interpolate ? Json(interpolateName(*smoothing.interpolate)) : Json()},
+      {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
+      {"weld", orNull(options.weldTolerance)},
+      {"strict", orNull(options.strict)},
+      {"until", options.until ? Json(stopRuleName(*options.until)) : Json()},
+      {"voxelize", options.voxelize ? Json(voxelizeName(*options.voxelize)) : Json()},
+      {"separating", options.separation == Separation::k26 ? 26 : 6},
+      {"grids", options.grids ? gridNames(run) : Json()},
+      {"texture", options.texture ? Json(textureText(*options.texture)) : Json()},
+      {"localize", localizeName(options.surface.localize)},
+      {"submesh_faces", options.surface.submeshFaces},
+      {"threads", options.run.threads > 0 ? Json(options.run.threads) : Json()},
+      {"max_memory", options.run.maxMemory > 0 ? Json(options.run.maxMemory) : Json()}};
+  json.update(toJson(options.volume));
+  return json;
 }
 
 Json memoryJson(const Conversion& conversion) {
@@ -87,8 +117,9 @@ std::string objectText(const ObjectReport& object) {
   std::ostringstream text;
   text << object.name << ": " << object.inputFaces << " faces, " << object.submeshes
        << " submeshes, ";
-  if (object.polygons.triangles > 0)
-    text << object.polygons.triangles << " triangles after " << object.levels << " levels, ";
+  if (object.byPolygons)
+    text << object.polygons.triangles << " triangles after " << object.levels << " levels (until "
+         << stopRuleName(object.until) << "), ";
   else
     text << object.vertices << " vertices (by level " << levelsText(object) << "), ";
   text << object.activeVoxels << " active voxels";

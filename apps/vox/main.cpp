@@ -84,11 +84,9 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 success, 1 diff or check says no, 2 usage, 3 bad input, 4 cannot be\n"
       "done within limits, 5 output cannot be written, 70 internal error, 130 interrupted.");
-  const std::vector<std::pair<const char*, Action>> actions = {{"convert", addConvert(app)},
-                                                               {"subdivide", addSubdivide(app)},
-                                                               {"info", addInfo(app)},
-                                                               {"diff", addDiff(app)},
-                                                               {"check", addCheck(app)}};
+  const std::vector<std::pair<const char*, Action>> actions = {
+      {"convert", addConvert(app)}, {"subdivide", addSubdivide(app)}, {"info", addInfo(app)},
+      {"diff", addDiff(app)},       {"check", addCheck(app)},         {"render", addRender(app)}};
 
   const auto print = [&app](const std::string& flag, std::string (*text)(const CLI::App&)) {
     app.add_flag_callback(flag, [&app, text] { throw CLI::CallForVersion(text(app), 0); })

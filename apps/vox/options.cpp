@@ -42,6 +42,18 @@ std::uint64_t parseBytes(const std::string& text) {
   return static_cast<std::uint64_t>(bytes);
 }
 
+/// Value of an option by its name; nothing if it was not given.
+template <class Enum, std::size_t N>
+std::optional<Enum> parseNamed(const char* option, const NameTable<Enum, N>& names,
+                               const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto value = namedIn(names, text);
+  if (!value)
+    throw UsageError(std::string(option) + " must be one of " + allNamesIn(names) + ", not '" +
+                     text + "'");
+  return value;
+}
+
 }  // namespace
 
 void addRunOptions(CLI::App& command, RunOptions& run) {
@@ -127,33 +139,132 @@ SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
 
 void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments) {
   command
-      .add_option("--until", arguments.until,
-                  "Subdivide down to the size of a voxel (voxel), or K times and scan-convert the "
-                  "polygons (levels=K; levels=0: those of the input) (default: the scene's, or "
-                  "voxel)")
-      ->type_name("voxel|levels=K")
+      .add_option(
+          "--until", arguments.until,
+          "Subdivide down to the size of a voxel (voxel), or scan-convert polygons once they "
+          "keep one of some limits: levels=K steps (0: the polygons of the input), faces of "
+          "diameter=D voxels, angle=DEG between adjacent ones, within flatness=D voxels of "
+          "the smooth surface (default: the scene's, or voxel)")
+      ->type_name("voxel|LIMIT[,LIMIT...]")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
+      ->group("Voxels");
+  command
+      .add_option(
+          "--voxelize", arguments.voxelize,
+          "How the surface becomes voxels: by its vertices (vertex; needs --until voxel), by "
+          "scanning polygons (polygon), or what is faster (auto) (default: the scene's, or "
+          "auto)")
+      ->type_name("auto|vertex|polygon")
       ->group("Voxels");
   command
       .add_option("--separating", arguments.separating,
                   "Paths of white voxels that the surface stops: those through faces (6), or those "
-                  "through edges and corners too (26; needs --until levels=K) (default: 6)")
+                  "through edges and corners too (26) (default: 6)")
       ->type_name("6|26")
       ->group("Voxels");
 }
 
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments) {
   if (arguments.until.empty()) return std::nullopt;
-  const auto rule = stopRuleNamed(arguments.until);
+  std::string all;
+  for (const std::string& name : arguments.until) all += (all.empty() ? "" : ",") + name;
+  const auto rule = stopRuleNamed(all);
   if (!rule)
-    throw UsageError("--until must be one of " + allStopRuleNames() + ", not '" + arguments.until +
-                     "'");
+    throw UsageError("--until must be one of " + allStopRuleNames() + ", not '" + all + "'");
   return rule;
+}
+
+std::optional<Voxelize> parseVoxelize(const VoxelizationArguments& arguments) {
+  if (arguments.voxelize.empty()) return std::nullopt;
+  const auto voxelize = voxelizeNamed(arguments.voxelize);
+  if (!voxelize)
+    throw UsageError("--voxelize must be one of " + allVoxelizeNames() + ", not '" +
+                     arguments.voxelize + "'");
+  return voxelize;
 }
 
 Separation parseSeparation(const VoxelizationArguments& arguments) {
   if (arguments.separating.empty() || arguments.separating == "6") return Separation::k6;
   if (arguments.separating == "26") return Separation::k26;
   throw UsageError("--separating must be 6 or 26, not '" + arguments.separating + "'");
+}
+
+void addVolumeOptions(CLI::App& command, VolumeArguments& arguments) {
+  command
+      .add_option("--fill", arguments.fill,
+                  "What density holds: the voxels of the surface (surface), or all that they "
+                  "enclose, too (solid) (default: the scene's, or surface)")
+      ->type_name("surface|solid")
+      ->group("Output");
+  command
+      .add_option_function<double>(
+          "--gain", [&arguments](double gain) { arguments.gain = gain; },
+          "Value of density (default: the scene's, or 1)")
+      ->type_name("G")
+      ->group("Output");
+  command
+      .add_option(
+          "--open-mesh", arguments.openMesh,
+          "Where an inside is asked for, a component that has none is an error; or stays a "
+          "surface, in the grid surface a sheet one voxel thick; or gives distances without "
+          "sign there (default: the scene's, or surface)")
+      ->type_name("error|surface|unsigned")
+      ->group("Output");
+  command
+      .add_option_function<double>(
+          "--band", [&arguments](double band) { arguments.band = band; },
+          "Half width of the grid surface, in voxels (default: the scene's, or 3)")
+      ->type_name("W")
+      ->group("Output");
+  command
+      .add_option_function<double>(
+          "--tolerance", [&arguments](double distance) { arguments.tolerance = distance; },
+          "How far the polygons that the grid surface is made from may lie off the smooth surface, "
+          "in voxels (default: the scene's, or 0.05)")
+      ->type_name("T")
+      ->group("Output");
+}
+
+void addFileOptions(CLI::App& command, VolumeArguments& arguments) {
+  command
+      .add_flag_function(
+          "--half", [&arguments](std::int64_t count) { arguments.half = count > 0; },
+          "Write values as floats of 16 bits (default: the scene's, or 32 bits)")
+      ->group("Output");
+  command
+      .add_option("--compression", arguments.compression,
+                  "How values are packed: blosc is fast, zip slow, both without loss (default: the "
+                  "scene's, or blosc)")
+      ->type_name("blosc|zip|none")
+      ->group("Output");
+  command
+      .add_option("--target", arguments.target,
+                  "The program that will read the file: decides names of grids and which way is "
+                  "up; blender-3.4 moves grids by the half voxel that this version is off "
+                  "(default: the scene's, or blender)")
+      ->type_name("blender|blender-3.4|houdini")
+      ->group("Output");
+  command
+      .add_option("--up", arguments.up,
+                  "The axis of the input that points up: turned to where the target has it, z in "
+                  "Blender, y in Houdini (default: the scene's, or nothing is turned)")
+      ->type_name("y|z")
+      ->group("Output");
+}
+
+VolumeOptions parseVolume(const VolumeArguments& arguments) {
+  VolumeOptions volume;
+  volume.fill = parseNamed("--fill", kFillNames, arguments.fill);
+  volume.openMesh = parseNamed("--open-mesh", kOpenMeshNames, arguments.openMesh);
+  volume.compression = parseNamed("--compression", kCompressionNames, arguments.compression);
+  volume.target = parseNamed("--target", kTargetNames, arguments.target);
+  volume.up = parseNamed("--up", kUpAxisNames, arguments.up);
+  volume.half = arguments.half;
+  volume.gain = arguments.gain;
+  volume.band = arguments.band;
+  volume.tolerance = arguments.tolerance;
+  return volume;
 }
 
 void addWeldOption(CLI::App& command, std::optional<double>& tolerance) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/grid/grid_kind.h"
+#include "libvox/grid/volume_options.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/smoothing.h"
 #include "libvox/mesh/stop_rule.h"
@@ -48,9 +49,10 @@ void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments);
 /// @throws UsageError, InputError
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments);
 
-/// --until and --separating, as typed.
+/// --until, --voxelize and --separating, as typed.
 struct VoxelizationArguments {
-  std::string until;
+  std::vector<std::string> until;
+  std::string voxelize;
   std::string separating;
 };
 void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments);
@@ -58,7 +60,28 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
 /// What they mean; nothing if not said.
 /// @throws UsageError
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
+std::optional<Voxelize> parseVoxelize(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
+
+/// --fill, --gain, --open-mesh, --band, --tolerance, --half, --compression, --target and --up, as
+/// typed.
+struct VolumeArguments {
+  std::string fill;
+  std::string openMesh;
+  std::string compression;
+  std::string target;
+  std::string up;
+  std::optional<double> gain;
+  std::optional<double> band;
+  std::optional<double> tolerance;
+  std::optional<bool> half;
+};
+void addVolumeOptions(CLI::App& command, VolumeArguments& arguments);
+void addFileOptions(CLI::App& command, VolumeArguments& arguments);
+
+/// What they mean.
+/// @throws UsageError
+VolumeOptions parseVolume(const VolumeArguments& arguments);
 
 /// --weld, as said.
 void addWeldOption(CLI::App& command, std::optional<double>& tolerance);

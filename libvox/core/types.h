@@ -7,6 +7,7 @@
 namespace vox {
 
 using Vec3d = Eigen::Vector3d;
+using Vec3f = Eigen::Vector3f;
 
 /// Index of a point, face or corner. Meshes hold fewer than 2^32 - 1 of each.
 using Index = std::uint32_t;

@@ -7,7 +7,8 @@
 namespace vox {
 namespace {
 
-constexpr std::array<GridKind, 2> kAll = {GridKind::kDensity, GridKind::kMask};
+constexpr std::array kAll = {GridKind::kDensity, GridKind::kMask, GridKind::kSurface,
+                             GridKind::kNormal, GridKind::kColor};
 
 }  // namespace
 
@@ -17,6 +18,12 @@ std::string gridName(GridKind kind) {
       return "density";
     case GridKind::kMask:
       return "mask";
+    case GridKind::kNormal:
+      return "normal";
+    case GridKind::kColor:
+      return "color";
+    case GridKind::kSurface:
+      return "surface";
   }
   return {};
 }

@@ -3,12 +3,10 @@
 #include "libvox/grid/surface_grid.h"
 
 #include "libvox/core/error.h"
-#include "libvox/core/parallel.h"
 
 #include <algorithm>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace vox {
 namespace {
@@ -66,7 +64,6 @@ void SurfaceGrid::addToPage(Page& page, const openvdb::Coord& leafOrigin, const 
       account(sizeof(Upper) + kHeapOverhead);
     page.node = new PageNode((leafOrigin >> kPageLog2) << kPageLog2, false);
   }
-  page.changed = true;
   Leaf* leaf = page.node->probeLeaf(leafOrigin);
   if (leaf == nullptr) {
     if (++page.newLeaves == kLeavesPerAccount) {
@@ -76,21 +73,12 @@ void SurfaceGrid::addToPage(Page& page, const openvdb::Coord& leafOrigin, const 
     leaf = new Leaf(leafOrigin, false);
     page.node->addLeaf(leaf);
   }
-  std::uint64_t* const bits = leaf->buffer().data();
-  for (std::size_t x = 0; x < words.size(); ++x) bits[x] |= words[x];
+  page.voxels += mergeLeaf(leaf->buffer().data(), words);
 }
 
-std::uint64_t SurfaceGrid::countVoxels() {
-  std::vector<Page*> changed;
+std::uint64_t SurfaceGrid::countVoxels() const {
   std::uint64_t count = 0;
-  for (auto& [origin, page] : pages_)
-    if (std::exchange(page.changed, false))
-      changed.push_back(&page);
-    else
-      count += page.voxels;
-  forEach(changed.size(), 1,
-          [&](std::size_t i) { changed[i]->voxels = changed[i]->node->onVoxelCount(); });
-  for (const Page* page : changed) count += page->voxels;
+  for (const auto& [origin, page] : pages_) count += page.voxels;
   return count;
 }
 

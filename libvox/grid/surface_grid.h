@@ -2,21 +2,18 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/types.h"
+#include "libvox/grid/merge_leaf.h"
 
 #include <openvdb/openvdb.h>
 #include <tbb/concurrent_unordered_map.h>
 #include <tbb/concurrent_unordered_set.h>
 #include <tbb/spin_mutex.h>
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <span>
 
 namespace vox {
-
-/// Bits of one leaf (8^3 voxels) in OpenVDB's order: word x, bit 8 y + z.
-using LeafWords = std::array<std::uint64_t, 8>;
 
 /// The black voxels that all tasks find, as the OpenVDB nodes that become the grid: nothing is
 /// copied or merged at the end. A page is an inner node of 128^3 voxels with a lock of its own;
@@ -36,8 +33,7 @@ class SurfaceGrid {
     tbb::spin_mutex lock;
     PageNode* node = nullptr;
     std::uint32_t newLeaves = 0;  // since memory was last accounted for
-    bool changed = false;         // since voxels were last counted
-    std::uint64_t voxels = 0;     // then
+    std::uint64_t voxels = 0;     // active ones
   };
 
   /// The page of a voxel; made when it is not there. Valid as long as the grid. Thread-safe.
@@ -61,9 +57,8 @@ class SurfaceGrid {
   /// Bytes of the nodes so far.
   std::uint64_t memoryBytes() const { return memoryBytes_; }
 
-  /// Number of active voxels. Costs a look at the pages that have changed since the last time. Not
-  /// thread-safe.
-  std::uint64_t countVoxels();
+  /// Number of active voxels; a sum over pages. Not thread-safe.
+  std::uint64_t countVoxels() const;
 
   /// Hangs the pages into a tree and leaves this grid empty. Not thread-safe.
   openvdb::MaskTree::Ptr takeTree();

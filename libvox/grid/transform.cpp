@@ -41,7 +41,7 @@ GridTransform transformForVoxelSize(double voxelSize) {
     throw LimitError("a voxel size of " + str(voxelSize) + " is out of OpenVDB's range, " +
                      str(kMinVoxelSize) + " to " + str(kMaxVoxelSize) + "; scale the model " +
                      (voxelSize < kMinVoxelSize ? "up or use larger voxels" : "down"));
-  return {voxelSize};
+  return {.voxelSize = voxelSize};
 }
 
 void requireInRange(const Box& boxWorld, const GridTransform& transform, const std::string& what) {

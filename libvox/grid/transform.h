@@ -24,12 +24,33 @@ struct Box {
 /// Box of the points that faces use.
 Box usedBox(const PolygonMesh& mesh);
 
-/// Uniform grid: world = voxelSize x index. Voxel (i, j, k) is the unit cube centred on (i, j, k),
-/// so grids of the same voxel size line up whatever they hold.
+/// A quarter turn about the x axis, on the way from the world to the grid.
+enum class Turn {
+  kNoTurn,
+  kYToZ,  ///< the y axis becomes the z axis
+  kZToY,
+};
+
+inline Vec3d turned(const Vec3d& p, Turn turn) {
+  if (turn == Turn::kYToZ) return {p.x(), -p.z(), p.y()};
+  if (turn == Turn::kZToY) return {p.x(), p.z(), -p.y()};
+  return p;
+}
+
+/// The turn back.
+inline Turn inverse(Turn turn) {
+  if (turn == Turn::kNoTurn) return turn;
+  return turn == Turn::kYToZ ? Turn::kZToY : Turn::kYToZ;
+}
+
+/// Uniform grid: world = voxelSize x index, turned back. Voxel (i, j, k) is the unit cube centred
+/// on (i, j, k), so grids of the same voxel size line up whatever they hold.
 struct GridTransform {
   double voxelSize = 1;  ///< world units, > 0
+  Turn turn = Turn::kNoTurn;
 
-  Vec3d toIndex(const Vec3d& world) const { return world / voxelSize; }
+  Vec3d toIndex(const Vec3d& world) const { return turned(world, turn) / voxelSize; }
+  Vec3d toWorld(const Vec3d& index) const { return turned(index, inverse(turn)) * voxelSize; }
 };
 
 /// Largest absolute index coordinate that may be converted: half of OpenVDB's 32-bit range, so that

@@ -2,7 +2,7 @@
 
 #include "libvox/core/types.h"
 
-#include <openvdb/math/Coord.h>
+#include <openvdb/Types.h>
 
 namespace vox {
 

@@ -126,6 +126,9 @@ AtomicFile::AtomicFile(const fs::path& target, bool overwrite) {
   target_ = targetOfLinks(target);
   partial_ = createPartial(folderOf(target_));
   registerPartial(partial_);
+  constexpr std::size_t kBufferBytes = 1 << 20;
+  buffer_ = std::make_unique<char[]>(kBufferBytes);
+  stream_.rdbuf()->pubsetbuf(buffer_.get(), kBufferBytes);  // before it is opened
   stream_.open(partial_, std::ios::in | std::ios::out | std::ios::binary);
   if (stream_) return;
   const std::string why = reason();

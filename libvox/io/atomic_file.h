@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 namespace vox {
 
@@ -36,6 +37,7 @@ class AtomicFile {
  private:
   std::filesystem::path target_;
   std::filesystem::path partial_;
+  std::unique_ptr<char[]> buffer_;  // outlives the stream
   std::fstream stream_;
 };
 

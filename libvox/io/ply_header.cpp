@@ -110,6 +110,7 @@ void HeaderParser::readElement() {
   const std::string shown = quote(name);
   element.name = shown.substr(1, shown.size() - 2);
   element.isVertex = name == "vertex";
+  element.isFace = name == "face";
 
   const std::int64_t count = scan_.integer(word("an element count"));
   if (count < 0 || count >= std::int64_t{kNone})
@@ -139,6 +140,12 @@ void HeaderParser::readProperty() {
     if (property.role != PlyRole::kIgnored && other.role == property.role)
       scan_.fail("second property " + quote(property.name));
   properties.push_back(std::move(property));
+  const auto has = [&](PlyRole role) {
+    return std::any_of(properties.begin(), properties.end(),
+                       [&](const PlyProperty& p) { return p.role == role; });
+  };
+  header_.elements.back().hasColor =
+      has(PlyRole::kRed) && has(PlyRole::kGreen) && has(PlyRole::kBlue);
 }
 
 PlyRole HeaderParser::roleOf(const PlyProperty& property) const {
@@ -148,6 +155,11 @@ PlyRole HeaderParser::roleOf(const PlyProperty& property) const {
     if (name != "vertex_indices" && name != "vertex_index") return PlyRole::kIgnored;
     if (element.name == "face") return PlyRole::kFace;
     return element.name == "tristrips" ? PlyRole::kStrips : PlyRole::kIgnored;
+  }
+  if (element.isVertex || element.isFace) {
+    if (name == "red") return PlyRole::kRed;
+    if (name == "green") return PlyRole::kGreen;
+    if (name == "blue") return PlyRole::kBlue;
   }
   if (!element.isVertex || name.size() != 1 || name < "x" || name > "z") return PlyRole::kIgnored;
   return name == "x" ? PlyRole::kX : name == "y" ? PlyRole::kY : PlyRole::kZ;
@@ -181,7 +193,7 @@ void HeaderParser::checkIsMesh() const {
     for (const PlyProperty& property : element.properties) {
       const bool isFaces = property.role == PlyRole::kFace || property.role == PlyRole::kStrips;
       hasFaces |= isFaces;
-      axes += property.role != PlyRole::kIgnored && !isFaces;
+      axes += property.role >= PlyRole::kX && property.role <= PlyRole::kZ;
     }
   if (axes != 3) scan_.fail("the header has no element vertex with properties x, y and z");
   if (!hasFaces)
@@ -204,6 +216,27 @@ std::size_t sizeOf(PlyType type) {
       return 4;
     case PlyType::kFloat64:
       return 8;
+  }
+  return 1;
+}
+
+double brightest(PlyType type) {
+  switch (type) {
+    case PlyType::kInt8:
+      return 0x7f;
+    case PlyType::kUint8:
+      return 0xff;
+    case PlyType::kInt16:
+      return 0x7fff;
+    case PlyType::kUint16:
+      return 0xffff;
+    case PlyType::kInt32:
+      return 0x7fffffff;
+    case PlyType::kUint32:
+      return 0xffffffff;
+    case PlyType::kFloat32:
+    case PlyType::kFloat64:
+      return 1;
   }
   return 1;
 }

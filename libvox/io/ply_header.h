@@ -15,8 +15,11 @@ enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, 
 /// Size in bytes.
 std::size_t sizeOf(PlyType type);
 
+/// What full brightness is in a colour of this type: the largest integer, or 1.
+double brightest(PlyType type);
+
 /// What a property means to us.
-enum class PlyRole { kIgnored, kX, kY, kZ, kFace, kStrips };
+enum class PlyRole { kIgnored, kX, kY, kZ, kRed, kGreen, kBlue, kFace, kStrips };
 
 struct PlyProperty {
   std::string name;
@@ -30,6 +33,8 @@ struct PlyElement {
   std::string name;  ///< printable
   std::uint64_t count = 0;
   bool isVertex = false;
+  bool isFace = false;
+  bool hasColor = false;  ///< red, green and blue
   std::vector<PlyProperty> properties;
 };
 

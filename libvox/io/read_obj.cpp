@@ -4,6 +4,7 @@
 // that many programs append to v lines.
 
 #include "libvox/core/error.h"
+#include "libvox/io/file_colors.h"
 #include "libvox/io/mesh_formats.h"
 #include "libvox/io/text_scanner.h"
 
@@ -28,6 +29,7 @@ class ObjParser {
       }
     } while (scan_.nextLine());
     checkForwardReferences();
+    mesh_.pointColors = colors_.takeLinear(mesh_.pointCount());
     return std::move(mesh_);
   }
 
@@ -46,23 +48,27 @@ class ObjParser {
 
   TextScanner scan_;
   PolygonMesh mesh_;
+  FileColors colors_;
   std::vector<ForwardReference> forward_;  // strictly increasing points: the first bad one is in it
 };
 
 // v x y z, then nothing, a weight, a colour, or a colour with a fourth number.
 void ObjParser::readPoint() {
   Vec3d point;
+  Vec3d color;
   int count = 0;
   for (auto token = scan_.token(); !token.empty(); token = scan_.token(), ++count) {
     if (count < 3) {
       point[count] = scan_.coordinate(token);
     } else {
-      scan_.number(token);
+      const double number = scan_.number(token);
+      if (count < 6) color[count - 3] = number;
     }
   }
   if (count != 3 && count != 4 && count != 6 && count != 7)
     scan_.fail("vertex with " + std::to_string(count) +
                " numbers; expected x y z, optionally a weight or a colour");
+  if (count >= 6) colors_.set(mesh_.pointCount(), color);
   mesh_.points.push_back(point);
 }
 

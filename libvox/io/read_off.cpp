@@ -4,9 +4,11 @@
 // edge count may be missing.
 
 #include "libvox/core/error.h"
+#include "libvox/io/file_colors.h"
 #include "libvox/io/mesh_formats.h"
 #include "libvox/io/text_scanner.h"
 
+#include <array>
 #include <utility>
 
 namespace vox {
@@ -25,6 +27,8 @@ class OffParser {
     if (const auto token = scan_.tokenOnAnyLine(); !token.empty())
       scan_.fail("unexpected " + quote(token) + " after the last of " + std::to_string(faceCount_) +
                  " faces; correct the counts");
+    mesh_.pointColors = pointColors_.takeLinear(mesh_.pointCount());
+    mesh_.faceColors = faceColors_.takeLinear(mesh_.faceCount());
     return std::move(mesh_);
   }
 
@@ -37,12 +41,17 @@ class OffParser {
                                   std::int64_t count) const;
   void readPoint(std::int64_t v);
   void readFace(std::int64_t f);
+  void readFaceColor();
 
   TextScanner scan_;
   PolygonMesh mesh_;
+  FileColors pointColors_;
+  FileColors faceColors_;
   std::int64_t pointCount_ = 0;
   std::int64_t faceCount_ = 0;
   int attributeCount_ = 0;  // numbers that must follow the position of each vertex
+  bool hasNormals_ = false;
+  bool hasColors_ = false;
 };
 
 void OffParser::readHeader() {
@@ -67,6 +76,8 @@ bool OffParser::readKeyword(std::string_view token) {
     if (!texture && flags[0] != 'C' && flags[0] != 'N')
       scan_.fail("unknown keyword " + quote(token) + "; expected OFF, COFF, NOFF or STOFF");
     attributeCount_ += texture ? 2 : 3;
+    hasNormals_ |= flags[0] == 'N';
+    hasColors_ |= flags[0] == 'C';
     flags.remove_prefix(texture ? 2 : 1);
   }
   return true;
@@ -97,14 +108,19 @@ void OffParser::readPoint(std::int64_t v) {
   Vec3d point;
   for (int axis = 0; axis < 3; ++axis)
     point[axis] = scan_.coordinate(tokenInside("vertex", v, pointCount_));
-  mesh_.points.push_back(point);
-
+  // Whatever the order in the keyword, a normal comes before a colour.
+  const int firstOfColor = hasNormals_ ? 3 : 0;
+  Vec3d color = Vec3d::Zero();
   int extra = 0;
-  for (auto token = scan_.token(); !token.empty(); token = scan_.token(), ++extra)
-    scan_.number(token);
+  for (auto token = scan_.token(); !token.empty(); token = scan_.token(), ++extra) {
+    const double number = scan_.number(token);
+    if (extra >= firstOfColor && extra < firstOfColor + 3) color[extra - firstOfColor] = number;
+  }
   if (extra < attributeCount_)
     scan_.fail("vertex " + std::to_string(v) + " has " + std::to_string(3 + extra) +
                " numbers; the keyword promises " + std::to_string(3 + attributeCount_));
+  if (hasColors_) pointColors_.set(mesh_.pointCount(), color);
+  mesh_.points.push_back(point);
 }
 
 void OffParser::readFace(std::int64_t f) {
@@ -126,7 +142,19 @@ void OffParser::readFace(std::int64_t f) {
     mesh_.faceVertices.push_back(static_cast<Index>(index));
   }
   mesh_.faceOffsets.push_back(mesh_.cornerCount());
-  scan_.nextLine();  // a colour may follow
+  readFaceColor();
+  scan_.nextLine();
+}
+
+// Three numbers, or four with alpha; a single one stands in a table of colours that nobody has.
+void OffParser::readFaceColor() {
+  std::array<std::string_view, 4> tokens;
+  std::size_t count = 0;
+  for (auto token = scan_.token(); !token.empty(); token = scan_.token(), ++count)
+    if (count < tokens.size()) tokens[count] = token;
+  if (count != 3 && count != 4) return;
+  faceColors_.set(mesh_.faceCount() - 1,
+                  {scan_.number(tokens[0]), scan_.number(tokens[1]), scan_.number(tokens[2])});
 }
 
 }  // namespace

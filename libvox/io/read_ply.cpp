@@ -5,6 +5,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/io/byte_order.h"
+#include "libvox/io/file_colors.h"
 #include "libvox/io/mesh_formats.h"
 #include "libvox/io/ply_header.h"
 #include "libvox/io/read_mesh.h"
@@ -120,6 +121,8 @@ class BodyParser {
         numbers_.endElement();
       }
     }
+    mesh_.pointColors = pointColors_.takeLinear(mesh_.pointCount());
+    mesh_.faceColors = faceColors_.takeLinear(mesh_.faceCount());
     return std::move(mesh_);
   }
 
@@ -135,11 +138,14 @@ class BodyParser {
   const PlyHeader& header_;
   Place& place_;
   PolygonMesh mesh_;
+  FileColors pointColors_;
+  FileColors faceColors_;
 };
 
 template <typename Numbers>
 void BodyParser<Numbers>::readElement(const PlyElement& element) {
   Vec3d point = Vec3d::Zero();
+  Vec3d color = Vec3d::Zero();
   for (const PlyProperty& property : element.properties) {
     switch (property.role) {
       case PlyRole::kIgnored:
@@ -150,6 +156,12 @@ void BodyParser<Numbers>::readElement(const PlyElement& element) {
         break;
       case PlyRole::kStrips:
         readStrips(property);
+        break;
+      case PlyRole::kRed:
+      case PlyRole::kGreen:
+      case PlyRole::kBlue:
+        color[static_cast<int>(property.role) - static_cast<int>(PlyRole::kRed)] =
+            numbers_.next(property.type) / brightest(property.type);
         break;
       case PlyRole::kX:
       case PlyRole::kY:
@@ -163,7 +175,10 @@ void BodyParser<Numbers>::readElement(const PlyElement& element) {
       }
     }
   }
+  if (element.hasColor && element.isVertex) pointColors_.set(mesh_.pointCount(), color);
   if (element.isVertex) mesh_.points.push_back(point);
+  if (element.hasColor && element.isFace && mesh_.faceCount() > 0)
+    faceColors_.set(mesh_.faceCount() - 1, color);
 }
 
 template <typename Numbers>

@@ -16,7 +16,9 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <locale>
 #include <numbers>
+#include <sstream>
 #include <string_view>
 
 namespace vox {
@@ -110,16 +112,43 @@ Vec3d requireVector(const SceneText& scene, const toml::node& node, const std::s
           requireNumber(scene, array[2], name)};
 }
 
-/// until = "voxel" or { levels = 3 }
+[[noreturn]] void failStopRule(const SceneText& scene, const toml::node& node) {
+  scene.fail(node,
+             "until must be \"voxel\" or { levels = K, diameter = D, angle = DEG, flatness = D }, "
+             "some of them");
+}
+
+/// until = "voxel" or { levels = 3, diameter = 4, angle = 5, flatness = 0.1 }, some of them
 StopRule readStopRule(const SceneText& scene, const toml::node& node) {
   const auto* table = node.as_table();
-  const auto* levels = table != nullptr ? table->get("levels") : nullptr;
-  if (table != nullptr) requireKnownKeys(scene, *table, "until", {"levels"});
-  if (levels != nullptr)
-    return {static_cast<int>(requireInteger(scene, *levels, "levels", 0, kMostLevels))};
-  if (node.value_exact<std::string>() != stopRuleName({}))
-    scene.fail(node, "until must be \"voxel\" or { levels = K }");
-  return {};
+  StopRule rule;
+  if (table == nullptr) {
+    if (node.value_exact<std::string>() != stopRuleName(rule)) failStopRule(scene, node);
+    return rule;
+  }
+  requireKnownKeys(scene, *table, "until", {"levels", "diameter", "angle", "flatness"});
+  if (const auto* levels = table->get("levels"))
+    rule.levels = static_cast<int>(requireInteger(scene, *levels, "levels", 0, kMostLevels));
+  const auto read = [&](const char* key, std::optional<double> StopRule::*limit) {
+    const auto* value = table->get(key);
+    if (value == nullptr) return;
+    StopRule alone;
+    rule.*limit = alone.*limit = requireNumber(scene, *value, key);
+    if (const std::string fault = faultOf(alone); !fault.empty()) scene.fail(*value, fault);
+  };
+  read("diameter", &StopRule::diameter);
+  read("angle", &StopRule::angle);
+  read("flatness", &StopRule::flatness);
+  if (rule.untilVoxel()) failStopRule(scene, node);
+  return rule;
+}
+
+Voxelize readVoxelize(const SceneText& scene, const toml::node& node) {
+  const std::string name = requireString(scene, node, "voxelize");
+  const auto voxelize = voxelizeNamed(name);
+  if (!voxelize)
+    scene.fail(node, "voxelize must be one of " + allVoxelizeNames() + ", not " + quote(name));
+  return *voxelize;
 }
 
 // [convert]
@@ -136,9 +165,38 @@ std::vector<GridKind> readGrids(const SceneText& scene, const toml::node& node) 
   return grids;
 }
 
+/// A value by its name, if the table has the key.
+template <class Enum, std::size_t N>
+void readNamed(const SceneText& text, const toml::table& table, const char* key,
+               const NameTable<Enum, N>& names, std::optional<Enum>& value) {
+  const auto* node = table.get(key);
+  if (node == nullptr) return;
+  const std::string name = requireString(text, *node, key);
+  value = namedIn(names, name);
+  if (!value)
+    text.fail(*node,
+              std::string(key) + " must be one of " + allNamesIn(names) + ", not " + quote(name));
+}
+
+VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table) {
+  VolumeOptions volume;
+  readNamed(text, table, "fill", kFillNames, volume.fill);
+  readNamed(text, table, "open_mesh", kOpenMeshNames, volume.openMesh);
+  readNamed(text, table, "compression", kCompressionNames, volume.compression);
+  readNamed(text, table, "target", kTargetNames, volume.target);
+  readNamed(text, table, "up", kUpAxisNames, volume.up);
+  if (const auto* half = table.get("half")) volume.half = requireBoolean(text, *half, "half");
+  if (const auto* gain = table.get("gain")) volume.gain = requireNumber(text, *gain, "gain");
+  if (const auto* band = table.get("band")) volume.band = requireNumber(text, *band, "band");
+  if (const auto* tolerance = table.get("tolerance"))
+    volume.tolerance = requireNumber(text, *tolerance, "tolerance");
+  return volume;
+}
+
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[convert]",
-                   {"dim", "voxel_size", "grids", "until", "weld", "strict"});
+                   {"dim", "voxel_size", "grids", "fill", "gain", "open_mesh", "band", "tolerance",
+                    "half", "compression", "target", "up", "until", "voxelize", "weld", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -148,7 +206,9 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
     if (scene.dim) text.fail(*size, "dim and voxel_size cannot both be given");
   }
   if (const auto* grids = table.get("grids")) scene.grids = readGrids(text, *grids);
+  scene.volume = readVolumeOptions(text, table);
   if (const auto* until = table.get("until")) scene.until = readStopRule(text, *until);
+  if (const auto* way = table.get("voxelize")) scene.voxelize = readVoxelize(text, *way);
   if (const auto* weld = table.get("weld")) {
     scene.weldTolerance = requireNumber(text, *weld, "weld");
     if (*scene.weldTolerance < 0) text.fail(*weld, "weld must be 0 or more");
@@ -181,6 +241,7 @@ PolygonMesh readInlineMesh(const SceneText& text, const toml::node& points,
 
 struct Transform {
   Eigen::Affine3d map;
+  Eigen::Affine3d inverse;
   bool mirrors;  ///< an odd number of negative scales; the determinant itself may underflow
 };
 
@@ -201,11 +262,16 @@ Transform readTransform(const SceneText& text, const toml::table& table) {
     translate = requireVector(text, *node, "translate");
 
   const Vec3d radians = degrees * (std::numbers::pi / 180);
+  const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(radians.z(), Vec3d::UnitZ()) *
+                                    Eigen::AngleAxisd(radians.y(), Vec3d::UnitY()) *
+                                    Eigen::AngleAxisd(radians.x(), Vec3d::UnitX()))
+                                       .toRotationMatrix();
   const Eigen::Affine3d map =
-      Eigen::Translation3d(translate) * Eigen::AngleAxisd(radians.z(), Vec3d::UnitZ()) *
-      Eigen::AngleAxisd(radians.y(), Vec3d::UnitY()) *
-      Eigen::AngleAxisd(radians.x(), Vec3d::UnitX()) * Eigen::Scaling(scale);
-  return {map, (scale.array() < 0).count() % 2 == 1};
+      Eigen::Translation3d(translate) * Eigen::Affine3d(rotation) * Eigen::Scaling(scale);
+  const Eigen::Affine3d inverse = Eigen::Scaling(Vec3d(scale.cwiseInverse())) *
+                                  Eigen::Affine3d(rotation.transpose()) *
+                                  Eigen::Translation3d(-translate);
+  return {map, inverse, (scale.array() < 0).count() % 2 == 1};
 }
 
 void reverseFaces(PolygonMesh& mesh) {
@@ -214,14 +280,15 @@ void reverseFaces(PolygonMesh& mesh) {
                  mesh.faceVertices.begin() + mesh.faceOffsets[f + 1]);
 }
 
-void transformMesh(const SceneText& text, const toml::node& node, PolygonMesh& mesh) {
+void transformObject(const SceneText& text, const toml::node& node, SceneObject& object) {
   const Transform transform = readTransform(text, requireTable(text, node, "transform"));
-  for (Vec3d& point : mesh.points) {
+  object.fromWorld = transform.inverse;
+  for (Vec3d& point : object.mesh.points) {
     point = transform.map * point;
     if (!(point.cwiseAbs().maxCoeff() <= kMaxCoordinate))
       text.fail(node, "transform moves the object beyond 1e15");
   }
-  if (transform.mirrors) reverseFaces(mesh);
+  if (transform.mirrors) reverseFaces(object.mesh);
 }
 
 PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& scene) {
@@ -273,17 +340,61 @@ SmoothingOptions readSmoothing(const SceneText& text, const toml::table& table, 
   return smoothing;
 }
 
+/// A value as parseTexture has it: numbers of a list with : between them, lists of a list with /.
+std::string textureValue(const SceneText& text, const toml::node& node, const std::string& name) {
+  if (node.is_string()) return requireString(text, node, name);
+  if (node.is_number()) {
+    std::ostringstream number;
+    number.imbue(std::locale::classic());
+    number.precision(17);
+    number << requireNumber(text, node, name);
+    return number.str();
+  }
+  std::string value;
+  const toml::array* const list = node.as_array();
+  if (list == nullptr) text.fail(node, name + " must be a number, a text or a list of them");
+  for (const toml::node& item : *list) {
+    const char* const separator = item.is_number() ? ":" : "/";
+    value += (value.empty() ? "" : separator) + textureValue(text, item, name);
+  }
+  return value;
+}
+
+/// texture = "marble" or { kind = "marble", scale = 0.2 }
+TextureSpec readTexture(const SceneText& text, const toml::node& node) {
+  const toml::node* at = &node;  // what is wrong, if anything is
+  try {
+    const auto* table = node.as_table();
+    if (table == nullptr) return textureNamed(requireString(text, node, "texture"));
+    const auto* kind = table->get("kind");
+    if (kind == nullptr) text.fail(node, "a texture needs a kind, one of " + allTextureNames());
+    at = kind;
+    TextureSpec texture = textureNamed(requireString(text, *kind, "kind"));
+    for (const auto& [key, value] : *table) {
+      if (key.str() == "kind") continue;
+      at = &value;
+      const std::string name(key.str());
+      setTexture(texture, name, textureValue(text, value, name));
+    }
+    return texture;
+  } catch (const UsageError& error) {
+    text.fail(*at, error.what());
+  }
+}
+
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[[object]]",
                    {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
-                    "interpolate_vertices", "until"});
+                    "interpolate_vertices", "until", "voxelize", "texture"});
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
   if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");
   object.mesh = readObjectMesh(text, table, scene);
-  if (const auto* transform = table.get("transform")) transformMesh(text, *transform, object.mesh);
+  if (const auto* transform = table.get("transform")) transformObject(text, *transform, object);
   object.smoothing = readSmoothing(text, table, object.mesh.pointCount());
   if (const auto* until = table.get("until")) object.until = readStopRule(text, *until);
+  if (const auto* way = table.get("voxelize")) object.voxelize = readVoxelize(text, *way);
+  if (const auto* texture = table.get("texture")) object.texture = readTexture(text, *texture);
   return object;
 }
 

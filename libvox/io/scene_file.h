@@ -1,9 +1,13 @@
 #pragma once
 
 #include "libvox/grid/grid_kind.h"
+#include "libvox/grid/texture_spec.h"
+#include "libvox/grid/volume_options.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/mesh/smoothing.h"
 #include "libvox/mesh/stop_rule.h"
+
+#include <Eigen/Geometry>
 
 #include <filesystem>
 #include <optional>
@@ -17,6 +21,9 @@ struct SceneObject {
   PolygonMesh mesh;  ///< world units, the object's transform applied
   SmoothingOptions smoothing = {};
   std::optional<StopRule> until = {};
+  std::optional<Voxelize> voxelize = {};
+  std::optional<TextureSpec> texture = {};
+  Eigen::Affine3d fromWorld = Eigen::Affine3d::Identity();  ///< undoes the object's transform
 };
 
 /// What to convert, and how, as far as the scene says.
@@ -26,7 +33,9 @@ struct Scene {
   std::optional<std::vector<GridKind>> grids;
   std::optional<double> weldTolerance;       ///< [convert] weld: world units
   std::optional<bool> strict;                ///< [convert] strict: no repair
+  VolumeOptions volume;                      ///< [convert] fill and what else it has
   std::optional<StopRule> until;             ///< [convert] until: of objects that say nothing
+  std::optional<Voxelize> voxelize;          ///< [convert] voxelize: likewise
   std::vector<SceneObject> objects;          ///< at least one
   std::vector<std::filesystem::path> files;  ///< the input file, then the meshes it names
   std::string inputHash;  ///< of the contents of these files; empty if there are none

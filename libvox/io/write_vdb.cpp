@@ -34,13 +34,24 @@ class SeekableArchive : public openvdb::io::Archive {
   }
 };
 
-std::uint32_t compressionFlags() {
-  std::uint32_t flags = openvdb::io::COMPRESS_ACTIVE_MASK;
-  if (openvdb::io::Archive::hasBloscCompression())
-    flags |= openvdb::io::COMPRESS_BLOSC;
-  else if (openvdb::io::Archive::hasZLibCompression())
-    flags |= openvdb::io::COMPRESS_ZIP;
-  return flags;
+bool isThere(Compression compression) {
+  if (compression == Compression::kBlosc) return openvdb::io::Archive::hasBloscCompression();
+  if (compression == Compression::kZip) return openvdb::io::Archive::hasZLibCompression();
+  return true;
+}
+
+std::uint32_t flagsOf(Compression compression) {
+  if (compression == Compression::kBlosc)
+    return openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK;
+  if (compression == Compression::kZip)
+    return openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK;
+  return openvdb::io::COMPRESS_ACTIVE_MASK;
+}
+
+Compression bestCompression() {
+  for (const auto& [compression, name] : kCompressionNames)
+    if (isThere(compression)) return compression;
+  return Compression::kPlain;
 }
 
 /// Hash of the whole stream with the UUID blanked out.
@@ -89,9 +100,9 @@ void replaceUuid(std::iostream& stream) {
 }  // namespace
 
 void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& grids,
-              const openvdb::MetaMap& fileMetadata) {
+              const openvdb::MetaMap& fileMetadata, std::optional<Compression> compression) {
   SeekableArchive archive;
-  archive.setCompression(compressionFlags());
+  archive.setCompression(flagsOf(compression.value_or(bestCompression())));
   try {
     archive.writeTo(stream, {grids.begin(), grids.end()}, fileMetadata);
   } catch (const openvdb::Exception& error) {
@@ -99,6 +110,12 @@ void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& 
   }
   if (stream.flush()) replaceUuid(stream);
   if (!stream.flush()) throw IoError("the output cannot be written; is the disk full?");
+}
+
+void requireCompression(Compression compression) {
+  if (isThere(compression)) return;
+  throw UsageError("this OpenVDB has no compression " + nameIn(kCompressionNames, compression) +
+                   "; leave it out to use the best there is");
 }
 
 VdbContent vdbContent(std::istream& stream) {

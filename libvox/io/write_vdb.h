@@ -1,20 +1,27 @@
 #pragma once
 
+#include "libvox/grid/volume_options.h"
+
 #include <openvdb/openvdb.h>
 
 #include <iosfwd>
+#include <optional>
 #include <vector>
 
 namespace vox {
 
-/// Writes grids in OpenVDB's own file format (Blosc and active-mask compression where the library
-/// has them). The random UUID of the file is replaced by a hash of everything else in it, so equal
-/// grids and metadata give equal bytes.
+/// Writes grids in OpenVDB's own file format; values that are not active are left out. The random
+/// UUID of the file is replaced by a hash of everything else in it, so equal grids and metadata
+/// give equal bytes.
 ///
+/// @param compression  default: Blosc, or else zip, or else none, whichever the library has
 /// @param stream  empty, readable, writable and seekable: std::fstream, std::stringstream
 /// @throws IoError  the stream fails
 void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& grids,
-              const openvdb::MetaMap& fileMetadata);
+              const openvdb::MetaMap& fileMetadata, std::optional<Compression> compression = {});
+
+/// @throws UsageError  the library has no such compression
+void requireCompression(Compression compression);
 
 /// Whether a file still has the content its UUID was made from.
 enum class VdbContent {

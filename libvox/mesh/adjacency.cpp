@@ -1,41 +1,55 @@
-// Twin corners by sorting the edges; rings and loops by walking from twin to twin.
+// Twin corners by bringing the corners of an edge together; rings and loops by walking from twin to
+// twin.
 
 #include "libvox/mesh/adjacency.h"
 
 #include "libvox/core/parallel.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace vox {
 namespace {
 
-constexpr std::size_t kCornersPerTask = 8192;
 constexpr std::size_t kFacesPerTask = 2048;
-
-std::vector<Index> cornerFaces(const PolygonMesh& mesh) {
-  std::vector<Index> cornerFace(mesh.cornerCount());
-  forEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
-    std::fill(cornerFace.begin() + mesh.faceOffsets[f],
-              cornerFace.begin() + mesh.faceOffsets[f + 1], f);
-  });
-  return cornerFace;
-}
+constexpr std::size_t kVerticesPerTask = 4096;
 
 }  // namespace
 
 std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& adjacency) {
-  std::vector<EdgeCorner> edges(mesh.cornerCount());
-  forEach(mesh.cornerCount(), kCornersPerTask, [&](Index c) {
+  const auto edgeOf = [&](Index c) -> EdgeCorner {
     const Index from = mesh.faceVertices[c];
     const Index to = mesh.faceVertices[nextCorner(mesh, adjacency, c)];
-    edges[c] = {std::min(from, to), std::max(from, to), c};
+    return {std::min(from, to), std::max(from, to), c};
+  };
+  // Few corners share their lower vertex: they are brought together by counting, then sorted.
+  std::vector<Index> end(std::size_t{mesh.pointCount()} + 1, 0);
+  for (Index c = 0; c < mesh.cornerCount(); ++c) ++end[std::size_t{edgeOf(c).low} + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<EdgeCorner> edges(mesh.cornerCount());
+  for (Index c = 0; c < mesh.cornerCount(); ++c) {
+    const EdgeCorner edge = edgeOf(c);
+    edges[end[edge.low]++] = edge;
+  }
+  forEach(mesh.pointCount(), kVerticesPerTask, [&](Index v) {
+    const Index begin = v == 0 ? 0 : end[v - 1];
+    std::sort(edges.begin() + begin, edges.begin() + end[v]);
   });
-  sortInParallel(edges);
   return edges;
 }
 
+Adjacency separateFaces(const PolygonMesh& mesh) {
+  Adjacency adjacency{std::vector<Index>(mesh.cornerCount(), kNone),
+                      std::vector<Index>(mesh.cornerCount())};
+  forEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
+    std::fill(adjacency.cornerFace.begin() + mesh.faceOffsets[f],
+              adjacency.cornerFace.begin() + mesh.faceOffsets[f + 1], f);
+  });
+  return adjacency;
+}
+
 Adjacency buildAdjacency(const PolygonMesh& mesh) {
-  Adjacency adjacency{std::vector<Index>(mesh.cornerCount(), kNone), cornerFaces(mesh)};
+  Adjacency adjacency = separateFaces(mesh);
   forEachEdge(cornersByEdge(mesh, adjacency), [&](std::span<const EdgeCorner> edge) {
     if (edge.size() != 2 || edge[0].low == edge[0].high) return;
     const Index a = edge[0].corner;

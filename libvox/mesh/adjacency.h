@@ -21,8 +21,11 @@ struct Adjacency {
 /// vertex to itself) separates its faces: its corners get kNone. The twins of any mesh therefore
 /// form an oriented manifold with boundary.
 ///
-/// Cost O(C log C), parallel; result independent of thread count.
+/// Cost O(C log n) with up to n corners around a vertex; result independent of thread count.
 Adjacency buildAdjacency(const PolygonMesh& mesh);
+
+/// Adjacency of faces that know no neighbours: the face of each corner, and no twins. O(C).
+Adjacency separateFaces(const PolygonMesh& mesh);
 
 /// One corner under the name of its undirected edge.
 struct EdgeCorner {

@@ -45,6 +45,12 @@ struct PatchWeights {
   }
 };
 
+/// The row of a patch at one place along u: its control points along v.
+inline CurvePoints rowOf(const Patch& patch, const PatchWeights& u) {
+  const auto& p = patch.points;
+  return {u(p[0][0], p[1][0], p[2][0]), u(p[0][1], p[1][1], p[2][1]), u(p[0][2], p[1][2], p[2][2])};
+}
+
 /// Receives the vertices of a subdivided surface, each at the level where its neighbourhood is
 /// fine enough. Coordinates are in index space (voxels).
 class SurfaceSink {

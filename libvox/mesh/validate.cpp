@@ -154,6 +154,11 @@ void requireValidArrays(const PolygonMesh& mesh) {
       if (v >= mesh.pointCount())
         throw MeshError("face " + str(f) + " names vertex " + str(v) + " of " +
                         str(mesh.pointCount()));
+  const auto fits = [](const auto& colors, std::size_t n) {
+    return colors.empty() || colors.size() == n;
+  };
+  if (!fits(mesh.pointColors, mesh.pointCount()) || !fits(mesh.faceColors, mesh.faceCount()))
+    throw MeshError("pointColors and faceColors must have one colour per point and face, or none");
   for (Index v = 0; v < mesh.pointCount(); ++v)
     if (!mesh.points[v].allFinite())
       throw MeshError("vertex " + str(v) + " has a coordinate that is not finite");

@@ -13,7 +13,9 @@
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/metadata.h"
 #include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/refine.h"
@@ -59,8 +61,9 @@ GridTransform chooseTransform(const Box& box, const Scene& scene, const ConvertO
   const bool fromOptions = options.dim || options.voxelSize;
   const auto voxelSize = fromOptions ? options.voxelSize : scene.voxelSize;
   const int dim = (fromOptions ? options.dim : scene.dim).value_or(kDefaultDim);
-  const GridTransform transform =
+  GridTransform transform =
       voxelSize ? transformForVoxelSize(*voxelSize) : transformForDim(box, dim);
+  transform.turn = turnOf(overriding(options.volume, scene.volume));
   requireInRange(box, transform);
   return transform;
 }
@@ -93,15 +96,17 @@ StopRule stopRuleOf(const SceneObject& object, const Scene& scene, const Convert
   return {};
 }
 
+Voxelize voxelizeOf(const SceneObject& object, const Scene& scene, const ConvertOptions& options) {
+  for (const auto& said : {options.voxelize, object.voxelize, scene.voxelize})
+    if (said) return *said;
+  return Voxelize::kAuto;
+}
+
 void requireStopRules(const Scene& scene, const ConvertOptions& options) {
   for (const SceneObject& object : scene.objects) {
-    const StopRule until = stopRuleOf(object, scene, options);
-    if (until.levels && (*until.levels < 0 || *until.levels > kMostLevels))
-      throw UsageError("the number of levels must lie between 0 and " +
-                       std::to_string(kMostLevels) + ", not " + std::to_string(*until.levels));
-    if (!until.levels && options.separation == Separation::k26)
-      throw UsageError(object.name +
-                       ": --separating 26 needs polygons; give --until levels=K with it");
+    const std::string fault = faultOf(stopRuleOf(object, scene, options),
+                                      voxelizeOf(object, scene, options), options.separation);
+    if (!fault.empty()) throw UsageError(object.name + ": " + fault);
   }
 }
 
@@ -122,6 +127,25 @@ double workOfPreparing(const SceneObject& object, const ConvertOptions& options)
                          interpolates(overriding(options.smoothing, object.smoothing)));
 }
 
+/// Voxels of a level set beside those of a surface, about.
+constexpr double kVoxelsOfBand = 4;
+
+double workOfWriting(GridKind kind, double area) {
+  switch (kind) {
+    case GridKind::kDensity:
+      return workOfWritingDensity(area);
+    case GridKind::kMask:
+      return workOfWritingMask(area);
+    case GridKind::kSurface:
+      return kVoxelsOfBand * workOfWritingDensity(area);
+    case GridKind::kNormal:
+      return workOfWritingNormals(area);
+    case GridKind::kColor:
+      return workOfWritingColor(area);
+  }
+  return 0;
+}
+
 /// Announces all stages, writing included.
 void plan(const Scene& scene, const ConvertOptions& options, std::span<const double> areas,
           std::span<const GridKind> kinds, Progress& progress) {
@@ -129,14 +153,26 @@ void plan(const Scene& scene, const ConvertOptions& options, std::span<const dou
     const SceneObject& object = scene.objects[i];
     progress.plan(workOfPreparing(object, options) +
                   workOfSurface(areas[i], object.mesh.cornerCount()));
-    for (const GridKind kind : kinds)
-      progress.plan(kind == GridKind::kDensity ? workOfWritingDensity(areas[i])
-                                               : workOfWritingMask(areas[i]));
+    for (const GridKind kind : kinds) progress.plan(workOfWriting(kind, areas[i]));
   }
   progress.plan(workOfGrids(areas, kinds));
 }
 
 // Conversion
+
+/// Whether a grid is made from black voxels.
+bool needsVoxels(std::span<const GridKind> kinds) {
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [](GridKind kind) { return kind != GridKind::kSurface; });
+}
+
+/// Whether a grid tells inside from outside.
+bool needsInside(std::span<const GridKind> kinds, const VolumeOptions& volume) {
+  return std::any_of(kinds.begin(), kinds.end(), [&](GridKind kind) {
+    return kind == GridKind::kSurface ||
+           (kind == GridKind::kDensity && volume.fill == Fill::kSolid);
+  });
+}
 
 /// Notes what preparation did, and refuses vertices that it moved out of the range of the grid.
 void notePreparation(const PreparedObject& prepared, const GridTransform& transform,
@@ -158,12 +194,15 @@ void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
 }
 
 /// Polygon conversion of an object, with a warning if its polygons are not what they should be.
-void convertPolygons(const PreparedSurface& surface, Separation separation,
+void convertPolygons(const PreparedSurface& surface, const SurfaceOptions& options,
                      const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
                      ObjectReport& part, std::vector<std::string>& warnings) {
-  const int levels = *surface.until.levels;
-  markPolygons(surface.base, levels, separation, budget, progress, grid, part.polygons);
-  part.levels = levels;
+  markPolygons(surface.base, surface.way.until, options, surface.way.separation, budget, progress,
+               grid, part.polygons);
+  part.byPolygons = true;
+  part.until = surface.way.until;
+  part.levels = part.polygons.levels;
+  part.submeshes = part.polygons.submeshes;
   const std::uint64_t fanned = part.polygons.fanned;
   if (fanned > 0)
     warnings.push_back(part.name + ": " + std::to_string(fanned) +
@@ -191,37 +230,75 @@ std::vector<PreparedSurface> prepareObjects(const Scene& scene, const ConvertOpt
     moveToIndexSpace(prepared.base.mesh, transform);
     requireGridsFit(prepared.base, kinds, transform, longestSide, budget);
     budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
-    surfaces.push_back({object.name, std::move(prepared.base), until});
+    const ConversionWay way = chooseWay(prepared.base, until, voxelizeOf(object, scene, options),
+                                        options.separation, options.surface, progress);
+    surfaces.push_back({object.name, std::move(prepared.base), way,
+                        textureOf(object, options.texture, transform.turn)});
   }
   return surfaces;
 }
 
 /// The voxels of all objects.
-openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<const PreparedSurface> surfaces,
+/// @param apart  whether each surface is to have its own besides
+openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<PreparedSurface> surfaces,
                                    const ConvertOptions& options, const GridTransform& transform,
-                                   std::span<const double> areas, MemoryBudget& budget,
+                                   bool apart, std::span<const double> areas, MemoryBudget& budget,
                                    Progress& progress, ConvertReport& report) {
   const StageTimer timer(report.surfaceSeconds);
   SurfaceGrid grid(budget.left());
+  auto all = std::make_shared<openvdb::MaskTree>();
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const PreparedSurface& surface = surfaces[i];
+    PreparedSurface& surface = surfaces[i];
     ObjectReport& part = report.objects[i];
     progress.begin("surface", workOfSurface(areas[i], scene.objects[i].mesh.cornerCount()));
-    if (surface.until.levels) {
-      convertPolygons(surface, options.separation, budget, progress, grid, part, report.warnings);
+    if (surface.way.polygons) {
+      convertPolygons(surface, options.surface, budget, progress, grid, part, report.warnings);
     } else {
       SurfaceReport marked;
       markSurface(surface.base, options.surface, budget, progress, grid, marked);
       noteSurface(marked, part);
     }
-    part.activeVoxels = grid.countVoxels() - report.activeVoxels;
+    if (apart) {
+      budget.take(2 * grid.memoryBytes(), "the grid", kScatteredAdvice);
+      surface.voxels = grid.takeTree();
+      all->topologyUnion(*surface.voxels);
+      grid.setMemoryLimit(budget.left());
+    }
+    part.activeVoxels =
+        (apart ? all->activeVoxelCount() : grid.countVoxels()) - report.activeVoxels;
     report.activeVoxels += part.activeVoxels;
   }
   budget.take(grid.memoryBytes(), "the grid", kScatteredAdvice);
-  auto mask = openvdb::MaskGrid::create(grid.takeTree());
-  mask->setName(gridName(GridKind::kMask));
+  auto mask = openvdb::MaskGrid::create(apart ? all : grid.takeTree());
   mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
   return mask;
+}
+
+/// The grids asked for.
+std::vector<GridKind> gridsOf(const Scene& scene, const ConvertOptions& options) {
+  std::vector<GridKind> kinds =
+      options.grids.value_or(scene.grids.value_or(std::vector{GridKind::kDensity}));
+  const bool colored = std::find(kinds.begin(), kinds.end(), GridKind::kColor) != kinds.end();
+  if (!options.texture || colored) return kinds;
+  if (options.grids) throw UsageError("--texture needs color among --grids");
+  kinds.push_back(GridKind::kColor);
+  return kinds;
+}
+
+/// Whether it matters which voxels belong to which object.
+bool needsVoxelsApart(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds) {
+  return surfaces.size() > 1 &&
+         std::find(kinds.begin(), kinds.end(), GridKind::kColor) != kinds.end();
+}
+
+/// A grid with its name and metadata.
+openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
+                                const VolumeOptions& volume, const openvdb::MetaMap& metadata) {
+  grid->setName(gridNameFor(kind, volume));
+  grid->setSaveFloatAsHalf(volume.half.value_or(false));
+  for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
+    grid->insertMeta(entry->first, *entry->second);
+  return grid;
 }
 
 Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progress& progress) {
@@ -235,26 +312,32 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
 
   const Box box = boxOf(scene);
   const GridTransform transform = chooseTransform(box, scene, options);
-  const std::vector<GridKind> kinds =
-      options.grids.value_or(scene.grids.value_or(std::vector{GridKind::kDensity}));
+  const std::vector<GridKind> kinds = gridsOf(scene, options);
+  const VolumeOptions volume = overriding(options.volume, scene.volume);
   const std::vector<double> areas = areasOf(scene, transform, progress);
   plan(scene, options, areas, kinds, progress);
   report.voxelSize = transform.voxelSize;
-  const std::vector<PreparedSurface> surfaces =
+  std::vector<PreparedSurface> surfaces =
       prepareObjects(scene, options, transform, box.longestSide(), kinds, budget, progress, report);
+  if (needsInside(kinds, volume))
+    for (const PreparedSurface& surface : surfaces)
+      requireInside(surface, volume.openMesh.value_or(OpenMesh::kSurface), transform,
+                    report.warnings);
+  const auto toMark = needsVoxels(kinds) ? std::span(surfaces) : std::span<PreparedSurface>();
   const openvdb::MaskGrid::Ptr mask =
-      markObjects(scene, surfaces, options, transform, areas, budget, progress, report);
+      markObjects(scene, toMark, options, transform, needsVoxelsApart(surfaces, kinds), areas,
+                  budget, progress, report);
 
+  result.compression = volume.compression;
+  if (volume.target == Target::kBlender34)
+    mask->transform().postTranslate(openvdb::Vec3d(-transform.voxelSize / 2));
   progress.begin("grids", workOfGrids(areas, kinds));
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, options, transform, report);
-  for (const GridKind kind : kinds) {
-    openvdb::GridBase::Ptr grid = makeGrid(kind, mask, surfaces, budget);
-    progress.check();
-    for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
-      grid->insertMeta(entry->first, *entry->second);
-    result.grids.push_back(std::move(grid));
-  }
+  for (const GridKind kind : kinds)
+    result.grids.push_back(
+        finished(makeGrid(kind, mask, surfaces, volume, budget, progress), kind, volume, metadata));
+  if (!needsVoxels(kinds)) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
 }
 
@@ -262,6 +345,9 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
 
 Conversion convert(const Scene& scene, const ConvertOptions& options) {
   requireStopRules(scene, options);
+  const VolumeOptions volume = overriding(options.volume, scene.volume);
+  requireValid(volume);
+  if (volume.compression) requireCompression(*volume.compression);
   requireValidScene(scene);
   Progress unwatched;
   Progress& progress = options.run.progress != nullptr ? *options.run.progress : unwatched;
@@ -271,10 +357,11 @@ Conversion convert(const Scene& scene, const ConvertOptions& options) {
 void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress) {
   openvdb::MetaMap metadata;
   metadata.insertMeta("creator", openvdb::StringMetadata(std::string("vox ") + version()));
-  if (progress == nullptr) return writeVdb(stream, conversion.grids, metadata);
+  if (progress == nullptr)
+    return writeVdb(stream, conversion.grids, metadata, conversion.compression);
   progress->beginLast("write");
   WatchedStream watched(*stream.rdbuf(), *progress, expectedBytes(conversion.grids));
-  writeVdb(watched, conversion.grids, metadata);
+  writeVdb(watched, conversion.grids, metadata, conversion.compression);
 }
 
 void writeGrids(const std::filesystem::path& file, const Conversion& conversion, bool overwrite,

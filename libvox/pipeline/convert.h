@@ -1,6 +1,8 @@
 #pragma once
 
 #include "libvox/grid/grid_kind.h"
+#include "libvox/grid/texture_spec.h"
+#include "libvox/grid/volume_options.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/stop_rule.h"
 #include "libvox/pipeline/polygons.h"
@@ -36,7 +38,12 @@ struct ConvertOptions : PreparationOptions {
   std::optional<double> voxelSize;  ///< world units; overrides dim
   std::optional<std::vector<GridKind>> grids;  ///< default: density
   std::optional<StopRule> until;               ///< default: voxel
-  Separation separation = Separation::k6;      ///< k26 needs polygons: until levels
+  std::optional<Voxelize> voxelize;            ///< default: auto
+  Separation separation = Separation::k6;
+  VolumeOptions volume;
+  /// Of all objects, instead of their own textures and colours; adds the color grid to those of the
+  /// scene.
+  std::optional<TextureSpec> texture;
   SurfaceOptions surface;
   RunOptions run;
 };
@@ -48,18 +55,20 @@ struct ObjectReport {
   std::string name;
   std::uint64_t inputFaces = 0;
   Index submeshes = 0;
-  int levels = 0;                     ///< Doo-Sabin steps down to the deepest vertex
-  std::uint64_t vertices = 0;         ///< vertices rounded to voxels, each at its own level
-  LevelCounts verticesOfLevel{};      ///< how many of them at each level
-  std::uint64_t activeVoxels = 0;     ///< that no object before it has
-  PolygonReport polygons;             ///< of an object that stops at a level
+  int levels = 0;                  ///< Doo-Sabin steps down to the deepest vertex
+  std::uint64_t vertices = 0;      ///< vertices rounded to voxels, each at its own level
+  LevelCounts verticesOfLevel{};   ///< how many of them at each level
+  std::uint64_t activeVoxels = 0;  ///< that no object before it has
+  bool byPolygons = false;         ///< rather than by vertices
+  StopRule until;                  ///< what its polygons were refined to
+  PolygonReport polygons;
   InterpolationReport interpolation;  ///< its residual in world units
 };
 
 struct ConvertReport {
   double voxelSize = 0;  ///< world units
   std::vector<ObjectReport> objects;
-  std::uint64_t activeVoxels = 0;
+  std::uint64_t activeVoxels = 0;     ///< black voxels, or those of the grid if none were made
   std::vector<std::string> warnings;  ///< one line each: what the user may not expect
   int threads = 0;                    ///< that there were to use
   double prepareSeconds = 0;
@@ -69,20 +78,22 @@ struct ConvertReport {
 
 struct Conversion {
   std::vector<std::shared_ptr<openvdb::GridBase>> grids;  ///< one transform, in the order asked for
+  std::optional<Compression> compression;                 ///< of their file; default: as writeVdb
   ConvertReport report;
 };
 
 /// Smooths every object of a scene by Doo-Sabin subdivision and converts it into shared OpenVDB
-/// grids. An object is subdivided until its faces meet the vertex-conversion criterion, or a number
-/// of times (0: not at all) and its polygons scanned; either way the active voxels 6-separate the
-/// two sides of each surface, or 26-separate them if that is asked for. Grids carry the metadata of
+/// grids. An object is subdivided until its faces meet the vertex-conversion criterion, or to a
+/// stop rule and its polygons scanned (choose.h); either way the active voxels 6-separate the two
+/// sides of each surface, or 26-separate them if that is asked for. Grids carry the metadata of
 /// DESIGN section 9. The result does not depend on the number of threads, nor on how the surface is
 /// cut into submeshes. The progress keeps a share for writing the grids.
 ///
-/// @throws UsageError  dim, voxel size, number of threads, levels, smoothing or weld tolerance is
-///   nonsense; 26-separating voxels are asked for where an object is not to stop at a level
+/// @throws UsageError  dim, voxel size, gain, number of threads, stop rule, smoothing or weld
+///   tolerance is nonsense; vertex conversion is asked for where it cannot be; a texture is asked
+///   for without the color grid
 /// @throws InputError  the input has no extent and no voxel size is given
-/// @throws MeshError   as prepare (refine.h)
+/// @throws MeshError   as prepare (refine.h); an object has no inside, and one is asked for
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid
 /// @throws Cancelled   options.run.progress says so
 Conversion convert(const Scene& scene, const ConvertOptions& options);

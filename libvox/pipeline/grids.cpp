@@ -3,8 +3,13 @@
 #include "libvox/pipeline/grids.h"
 
 #include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/distance.h"
+#include "libvox/pipeline/inside.h"
+#include "libvox/pipeline/normals.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
+#include "libvox/volume/fill.h"
+#include "libvox/volume/normal_grid.h"
 
 #include <openvdb/openvdb.h>
 
@@ -16,30 +21,56 @@
 namespace vox {
 namespace {
 
-/// Bytes of a tree of floats with the nodes of a mask.
-std::uint64_t bytesOfDensity(const openvdb::MaskTree& mask) {
-  using Leaf = openvdb::FloatTree::LeafNodeType;
-  using Upper = openvdb::FloatTree::RootNodeType::ChildNodeType;
-  using Lower = Upper::ChildNodeType;
-  const auto nodes = mask.nodeCount();  // leaves first, root last
-  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(float)) + nodes[1] * sizeof(Lower) +
-         nodes[2] * sizeof(Upper);
-}
-
 /// Bytes of nodes per square voxel of a surface: 1.5 leaves per 64 and 1.5 inner nodes per 16384,
 /// averaged over directions.
 template <class TreeT>
-double bytesPerArea(double valueBytes) {
+double bytesPerArea(std::size_t valueBytes) {
   using Leaf = typename TreeT::LeafNodeType;
   using Lower = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
-  return 1.5 * ((sizeof(Leaf) + Leaf::SIZE * valueBytes) / 64 + sizeof(Lower) / 16384.0);
+  const auto leafBytes = static_cast<double>(sizeof(Leaf) + Leaf::SIZE * valueBytes);
+  return 1.5 * (leafBytes / 64 + sizeof(Lower) / 16384.0);
 }
 
 double bytesOfGrids(double area, std::span<const GridKind> kinds) {
   double perArea = bytesPerArea<openvdb::MaskTree>(0);
-  for (const GridKind kind : kinds)
+  for (const GridKind kind : kinds) {
     if (kind == GridKind::kDensity) perArea += bytesPerArea<openvdb::FloatTree>(sizeof(float));
+    if (kind == GridKind::kNormal)
+      perArea += bytesPerArea<openvdb::Vec3STree>(sizeof(openvdb::Vec3s));
+    if (kind == GridKind::kColor)
+      perArea += bytesPerArea<openvdb::Vec3STree>(sizeof(openvdb::Vec3f));
+  }
   return area * perArea;
+}
+
+openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
+                                   std::span<const PreparedSurface> surfaces,
+                                   const VolumeOptions& volume, MemoryBudget& budget,
+                                   const Progress& progress) {
+  openvdb::MaskTree::ConstPtr solid;
+  const openvdb::MaskTree* tree = &mask.tree();
+  if (volume.fill.value_or(Fill::kSurface) == Fill::kSolid) {
+    budget.require(bytesOfFilling(*tree), "the inside", kScatteredAdvice);
+    solid = solidOf(*tree, surfaces, budget, progress);
+    tree = solid.get();
+  }
+  budget.take(bytesOfGrid<openvdb::FloatTree>(*tree), "the density grid", kScatteredAdvice);
+  auto density = densityGrid(*tree, static_cast<float>(volume.gain.value_or(1)));
+  density->setTransform(mask.transform().copy());
+  return density;
+}
+
+openvdb::GridBase::Ptr makeNormals(const openvdb::MaskGrid& mask,
+                                   std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
+                                   Progress& progress) {
+  constexpr const char* kAdvice = "leave it out, use larger voxels, or raise --max-memory";
+  budget.take(bytesOfGrid<openvdb::Vec3STree>(mask.tree()), "the normal grid", kAdvice);
+  budget.require(VoxelSums::bytesFor(mask.activeVoxelCount(), mask.tree().leafCount()),
+                 "the normals", kAdvice);
+  VoxelSums sums(mask.tree());
+  for (const PreparedSurface& surface : surfaces)
+    addNormals(surface.base, surface.way, progress, sums);
+  return normalGrid(mask, sums);
 }
 
 }  // namespace
@@ -47,8 +78,11 @@ double bytesOfGrids(double area, std::span<const GridKind> kinds) {
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds) {
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   double work = 0;
-  for (const GridKind kind : kinds)
+  for (const GridKind kind : kinds) {
     if (kind == GridKind::kDensity) work += workOfDensity(area);
+    if (kind == GridKind::kNormal) work += workOfNormals(area);
+    if (kind == GridKind::kColor) work += workOfColor(area);
+  }
   return work;
 }
 
@@ -72,20 +106,35 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 }
 
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> /*surfaces*/,
-                                MemoryBudget& budget) {
-  if (kind == GridKind::kMask) return mask;
-  budget.take(bytesOfDensity(mask->tree()), "the density grid", kScatteredAdvice);
-  return densityGrid(*mask);
+                                std::span<const PreparedSurface> surfaces,
+                                const VolumeOptions& volume, MemoryBudget& budget,
+                                Progress& progress) {
+  progress.check();
+  switch (kind) {
+    case GridKind::kMask:
+      break;
+    case GridKind::kDensity:
+      return makeDensity(*mask, surfaces, volume, budget, progress);
+    case GridKind::kSurface:
+      return surfaceGrid(surfaces, volume, mask->transform(), budget, progress);
+    case GridKind::kNormal:
+      return makeNormals(*mask, surfaces, budget, progress);
+    case GridKind::kColor:
+      return makeColorGrid(*mask, surfaces, budget, progress);
+  }
+  return mask;
 }
 
 std::uint64_t expectedBytes(std::span<const openvdb::GridBase::Ptr> grids) {
   constexpr std::uint64_t kPerLeaf = 145;
   constexpr std::uint64_t kPerLeafOfValues = 195;
+  constexpr std::uint64_t kPerLeafOfVectors = 800;
   std::uint64_t bytes = 0;
   for (const auto& grid : grids)
-    bytes += grid->constBaseTree().leafCount() *
-             (grid->isType<openvdb::MaskGrid>() ? kPerLeaf : kPerLeafOfValues);
+    bytes += grid->constBaseTree().leafCount() * (grid->isType<openvdb::MaskGrid>() ? kPerLeaf
+                                                  : grid->isType<openvdb::Vec3SGrid>()
+                                                      ? kPerLeafOfVectors
+                                                      : kPerLeafOfValues);
   return bytes;
 }
 

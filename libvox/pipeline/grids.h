@@ -1,15 +1,19 @@
 #pragma once
 
 #include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/grid/grid_kind.h"
 #include "libvox/grid/transform.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/grid/volume_options.h"
+#include "libvox/pipeline/choose.h"
+#include "libvox/pipeline/colors.h"
 #include "libvox/subdivide/level.h"
 
 #include <openvdb/openvdb.h>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -19,8 +23,21 @@ namespace vox {
 struct PreparedSurface {
   std::string name;
   SubdivisionLevel base;
-  StopRule until;
+  ConversionWay way;
+  std::optional<PlacedTexture> texture = {};
+  openvdb::MaskTree::Ptr voxels = {};  ///< its own; null: there was no need to tell them apart
 };
+
+/// Bytes of a tree of values with the nodes of a mask.
+template <class TreeT>
+std::uint64_t bytesOfGrid(const openvdb::MaskTree& mask) {
+  using Leaf = typename TreeT::LeafNodeType;
+  using Upper = typename TreeT::RootNodeType::ChildNodeType;
+  using Lower = typename Upper::ChildNodeType;
+  const auto nodes = mask.nodeCount();  // leaves first, root last
+  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(typename TreeT::ValueType)) +
+         nodes[1] * sizeof(Lower) + nodes[2] * sizeof(Upper);
+}
 
 /// What to do about a grid that is too large.
 inline constexpr const char* kScatteredAdvice =
@@ -38,8 +55,11 @@ void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kin
 
 /// The output grid of a kind, from the black voxels and the surfaces they came from.
 /// @throws LimitError  it does not fit into the budget
+/// @throws Cancelled
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> surfaces, MemoryBudget& budget);
+                                std::span<const PreparedSurface> surfaces,
+                                const VolumeOptions& volume, MemoryBudget& budget,
+                                Progress& progress);
 
 /// Work of making grids (work.h), by the area of each object in square voxels.
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds);

@@ -24,7 +24,18 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
   if (smoothing.interpolatedVertices)
     text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
   if (options.weldTolerance) text << " weld=" << *options.weldTolerance;
+  if (options.texture) text << " texture=" << textureText(*options.texture);
+  if (options.volume.fill) text << " fill=" << nameIn(kFillNames, *options.volume.fill);
+  if (options.volume.gain) text << " gain=" << *options.volume.gain;
+  if (options.volume.openMesh)
+    text << " open-mesh=" << nameIn(kOpenMeshNames, *options.volume.openMesh);
+  if (options.volume.band) text << " band=" << *options.volume.band;
+  if (options.volume.tolerance) text << " tolerance=" << *options.volume.tolerance;
+  if (options.volume.half.value_or(false)) text << " half";
+  if (options.volume.target) text << " target=" << nameIn(kTargetNames, *options.volume.target);
+  if (options.volume.up) text << " up=" << nameIn(kUpAxisNames, *options.volume.up);
   if (options.until) text << " until=" << stopRuleName(*options.until);
+  if (options.voxelize) text << " voxelize=" << voxelizeName(*options.voxelize);
   return text.str();
 }
 
@@ -44,6 +55,7 @@ openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
   }
   metadata.insertMeta("vox_options",
                       openvdb::StringMetadata(optionText(transform, scene, options)));
+  if (report.activeVoxels == 0) return metadata;  // a level set needs none
   metadata.insertMeta("vox_levels", openvdb::Int32Metadata(levels));
   metadata.insertMeta("vox_guarantee", openvdb::StringMetadata(guarantee));
   metadata.insertMeta("vox_active_voxels", openvdb::Int64Metadata(voxels));

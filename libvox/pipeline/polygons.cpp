@@ -1,10 +1,11 @@
-// Polygons of a level to voxels: paper sections 6 and 7.
+// Polygons to voxels: paper sections 6 and 7.
 
 #include "libvox/pipeline/polygons.h"
 
 #include "libvox/core/parallel.h"
 #include "libvox/grid/leaf_cache.h"
 #include "libvox/pipeline/refine.h"
+#include "libvox/pipeline/refined_polygons.h"
 #include "libvox/voxelize/triangulate.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -21,19 +22,32 @@ namespace {
 /// out.
 constexpr std::size_t kFacesPerPart = 64;
 
-/// One thread's way from faces to voxels.
-class PolygonSink {
- public:
-  PolygonSink(SurfaceGrid& grid, const PolygonMesh& mesh, Separation separation)
-      : cache_(grid), mesh_(mesh), separation_(separation) {}
+/// Triangles longer than that, in voxels, are scanned in parts.
+constexpr double kLongTriangle = 512;
 
-  void faces(Index begin, Index end) {
+/// Each thread's way from faces to voxels.
+class ScanSink;
+using ScanSinks = tbb::enumerable_thread_specific<ScanSink>;
+
+class ScanSink : public PolygonSink {
+ public:
+  ScanSink(SurfaceGrid& grid, Separation separation, const Progress& progress, ScanSinks& all)
+      : cache_(grid), separation_(separation), progress_(progress), all_(all) {}
+
+  void polygons(const PolygonMesh& piece) override { faces(piece, 0, piece.faceCount()); }
+
+  void faces(const PolygonMesh& mesh, Index begin, Index end) {
     triangles_.clear();
-    for (Index f = begin; f != end; ++f) addTriangles(mesh_.face(f));
-    scanTriangles(mesh_.points, triangles_, separation_, [this](const VoxelBlock& block) {
-      cache_.addBlock({block.origin[0], block.origin[1], block.origin[2]}, block.voxels);
-    });
+    for (Index f = begin; f != end; ++f) addTriangles(mesh, f);
     report_.triangles += triangles_.size();
+    const auto middle = std::stable_partition(
+        triangles_.begin(), triangles_.end(),
+        [&](const auto& triangle) { return !isLong(cornersOf(mesh, triangle)); });
+    const auto longOnes = static_cast<std::size_t>(triangles_.end() - middle);
+    scanTriangles(mesh.points, std::span(triangles_).first(triangles_.size() - longOnes),
+                  separation_, [this](const VoxelBlock& block) { add(block); });
+    const auto many = std::vector(middle, triangles_.end());
+    for (const auto& triangle : many) scanInParts(cornersOf(mesh, triangle));
   }
 
   void flush() { cache_.flush(); }
@@ -41,52 +55,95 @@ class PolygonSink {
   PolygonReport report() const { return {report_.triangles, fans_.fanned}; }
 
  private:
-  void addTriangles(std::span<const Index> face) {
+  using Corners = std::array<Vec3d, 3>;
+
+  void addTriangles(const PolygonMesh& mesh, Index f) {
+    const auto face = mesh.face(f);
     corners_.clear();
-    for (const Index v : face) corners_.push_back(mesh_.points[v]);
+    for (const Index v : face) corners_.push_back(mesh.points[v]);
     const std::size_t first = triangles_.size();
     triangulate(corners_, triangles_, fans_);
     for (std::size_t t = first; t < triangles_.size(); ++t)
       for (Index& corner : triangles_[t]) corner = face[corner];
   }
 
+  static Corners cornersOf(const PolygonMesh& mesh, const std::array<Index, 3>& triangle) {
+    return {mesh.points[triangle[0]], mesh.points[triangle[1]], mesh.points[triangle[2]]};
+  }
+  static bool isLong(const Corners& corners) {
+    const Vec3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+    const Vec3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+    return !((high - low).maxCoeff() <= kLongTriangle);
+  }
+
+  void add(const VoxelBlock& block) {
+    cache_.addBlock({block.origin[0], block.origin[1], block.origin[2]}, block.voxels);
+  }
+
+  /// Isolated: a thread that waits for the others must not begin another piece.
+  void scanInParts(const Corners& corners) {
+    tbb::this_task_arena::isolate([&] {
+      forEach(scanPartCount(corners), 1, [&](std::int64_t part) {
+        progress_.check();
+        ScanSink& sink = all_.local();
+        scanTrianglePart(corners, part, separation_,
+                         [&sink](const VoxelBlock& block) { sink.add(block); });
+      });
+    });
+  }
+
   LeafCache cache_;
-  const PolygonMesh& mesh_;
   Separation separation_;
+  const Progress& progress_;
+  ScanSinks& all_;
   std::vector<Vec3d> corners_;                   // of a face
   std::vector<std::array<Index, 3>> triangles_;  // of a part
   PolygonReport report_;
   TriangulationReport fans_;
 };
 
-void scanFaces(const PolygonMesh& mesh, Separation separation, const Progress& progress,
-               SurfaceGrid& grid, PolygonReport& report) {
-  tbb::enumerable_thread_specific<PolygonSink> sinks(
-      [&] { return PolygonSink(grid, mesh, separation); });
+void scanFaces(const PolygonMesh& mesh, Progress& progress, ScanSinks& sinks) {
   const std::size_t parts = (mesh.faceCount() + kFacesPerPart - 1) / kFacesPerPart;
   forEach(parts, 1, [&](std::size_t part) {
     progress.check();
     const std::size_t begin = part * kFacesPerPart;
     const std::size_t end = std::min<std::size_t>(begin + kFacesPerPart, mesh.faceCount());
-    sinks.local().faces(static_cast<Index>(begin), static_cast<Index>(end));
+    sinks.local().faces(mesh, static_cast<Index>(begin), static_cast<Index>(end));
   });
-  for (PolygonSink& sink : sinks) {
-    sink.flush();
-    report.triangles += sink.report().triangles;
-    report.fanned += sink.report().fanned;
-  }
+}
+
+/// The whole mesh of a level.
+void scanLevel(SubdivisionLevel base, int levels, MemoryBudget& budget, Progress& progress,
+               SurfaceGrid& grid, ScanSinks& sinks) {
+  const PolygonMesh mesh = subdividedWithin(budget, std::move(base), levels, progress).mesh;
+  budget.take(bytesOf(mesh), "the refined mesh", "use fewer levels, or raise --max-memory");
+  grid.setMemoryLimit(grid.memoryBytes() + budget.left());
+  scanFaces(mesh, progress, sinks);
 }
 
 }  // namespace
 
-void markPolygons(SubdivisionLevel base, int levels, Separation separation, MemoryBudget budget,
-                  Progress& progress, SurfaceGrid& grid, PolygonReport& report) {
+void markPolygons(SubdivisionLevel base, const StopRule& until, const SurfaceOptions& options,
+                  Separation separation, MemoryBudget budget, Progress& progress, SurfaceGrid& grid,
+                  PolygonReport& report) {
   const std::uint64_t forGrid = budget.left();
   budget.take(grid.memoryBytes(), "the grid", "use larger voxels, or raise --max-memory");
-  const PolygonMesh mesh = subdividedWithin(budget, std::move(base), levels, progress).mesh;
-  budget.take(bytesOf(mesh), "the refined mesh", "use fewer levels, or raise --max-memory");
-  grid.setMemoryLimit(grid.memoryBytes() + budget.left());
-  scanFaces(mesh, separation, progress, grid, report);
+  ScanSinks sinks([&] { return ScanSink(grid, separation, progress, sinks); });
+  const bool levelsOnly = until == StopRule{until.levels};
+  if (until.levels == 0 || (levelsOnly && options.localize == Localize::kOff)) {
+    report.levels = *until.levels;
+    scanLevel(std::move(base), report.levels, budget, progress, grid, sinks);
+  } else {
+    const PolygonPlan plan = planPolygons(base, until, options.submeshFaces, progress);
+    report.levels = plan.levels;
+    report.submeshes = plan.partition.size();
+    makePolygons(base, plan, progress, [&]() -> PolygonSink& { return sinks.local(); });
+  }
+  for (ScanSink& sink : sinks) {
+    sink.flush();
+    report.triangles += sink.report().triangles;
+    report.fanned += sink.report().fanned;
+  }
   grid.setMemoryLimit(forGrid);
 }
 

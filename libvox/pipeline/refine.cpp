@@ -172,7 +172,8 @@ bool interpolates(const SmoothingOptions& own) {
 
 std::uint64_t bytesOf(const PolygonMesh& mesh) {
   return mesh.points.size() * sizeof(Vec3d) +
-         (mesh.faceOffsets.size() + mesh.faceVertices.size()) * sizeof(Index);
+         (mesh.faceOffsets.size() + mesh.faceVertices.size()) * sizeof(Index) +
+         (mesh.pointColors.size() + mesh.faceColors.size()) * sizeof(Vec3f);
 }
 
 std::uint64_t bytesOf(const SubdivisionLevel& level) {

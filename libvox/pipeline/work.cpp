@@ -2,7 +2,7 @@
 
 #include "libvox/pipeline/work.h"
 
-#include <Eigen/Geometry>
+#include "libvox/mesh/area_vector.h"
 
 namespace vox {
 
@@ -21,6 +21,14 @@ double workOfDensity(double area) {
   return 13 * area;
 }
 
+double workOfNormals(double area) {
+  return 500 * area;
+}
+
+double workOfColor(double area) {
+  return 250 * area;
+}
+
 double workOfWritingMask(double area) {
   return 8 * area;
 }
@@ -29,13 +37,19 @@ double workOfWritingDensity(double area) {
   return 32 * area;
 }
 
+double workOfWritingNormals(double area) {
+  return 150 * area;
+}
+
+double workOfWritingColor(double area) {
+  return 100 * area;
+}
+
 double areaOf(const PolygonMesh& mesh, Index face) {
-  Vec3d twice = Vec3d::Zero();
   const auto vertices = mesh.face(face);
-  for (std::size_t i = 1; i + 1 < vertices.size(); ++i)
-    twice += (mesh.points[vertices[i]] - mesh.points[vertices[0]])
-                 .cross(Vec3d(mesh.points[vertices[i + 1]] - mesh.points[vertices[0]]));
-  return twice.norm() / 2;
+  return twiceAreaVector(vertices.size(), [&](std::size_t i) { return mesh.points[vertices[i]]; })
+             .norm() /
+         2;
 }
 
 double areaOf(const PolygonMesh& mesh) {

@@ -18,9 +18,15 @@ inline constexpr double kPartBeforeInterpolation = 0.6;
 double workOfSurface(double area, std::uint64_t corners);
 /// Of turning the voxels into a density grid.
 double workOfDensity(double area);
+/// Of finding the normals of the voxels.
+double workOfNormals(double area);
+/// Of colouring them.
+double workOfColor(double area);
 /// Of writing a grid.
 double workOfWritingMask(double area);
 double workOfWritingDensity(double area);
+double workOfWritingNormals(double area);
+double workOfWritingColor(double area);
 
 /// Area of a face by its average normal, in the square of whatever the unit of the points is.
 double areaOf(const PolygonMesh& mesh, Index face);

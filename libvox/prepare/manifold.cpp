@@ -6,6 +6,7 @@
 #include "libvox/prepare/manifold.h"
 
 #include "libvox/core/error.h"
+#include "libvox/mesh/area_vector.h"
 #include "libvox/mesh/winding_forest.h"
 #include "libvox/prepare/face_order.h"
 
@@ -30,9 +31,7 @@ std::vector<Vec3d> faceNormals(const PolygonMesh& mesh) {
   std::vector<Vec3d> normals(mesh.faceCount(), Vec3d::Zero());
   for (Index f = 0; f < mesh.faceCount(); ++f) {
     const auto face = canonical.face(f);
-    const Vec3d& origin = mesh.points[face[0]];
-    for (std::size_t i = 1; i + 1 < face.size(); ++i)
-      normals[f] += (mesh.points[face[i]] - origin).cross(Vec3d(mesh.points[face[i + 1]] - origin));
+    normals[f] = twiceAreaVector(face.size(), [&](std::size_t i) { return mesh.points[face[i]]; });
     if (reversed[f]) normals[f] = -normals[f];
   }
   return normals;
@@ -148,7 +147,7 @@ FanForest findFans(const PolygonMesh& mesh, const Adjacency& joints) {
 }  // namespace
 
 Joints joinFaces(const PolygonMesh& mesh, CrowdedEdge crowded) {
-  Joints joints{buildAdjacency(mesh), {}};
+  Joints joints{separateFaces(mesh), {}};
   const auto edges = cornersByEdge(mesh, joints.adjacency);
   forEachEdge(edges, [&](std::span<const EdgeCorner> edge) {
     if (edge.size() > 2) joints.crowdedEdges.push_back(edge[0].corner);

@@ -340,6 +340,8 @@ std::string summary(const RepairReport& report) {
 
 PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport& report) {
   requireValidArrays(mesh);
+  mesh.pointColors.clear();
+  mesh.faceColors.clear();
   report = RepairReport{};
   report.weldedTo = numbered(mesh.pointCount());
   Draft draft{std::move(mesh), {}, {}, {}};

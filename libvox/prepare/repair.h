@@ -75,9 +75,10 @@ std::string summary(const RepairReport& report);
 /// Faces without area but with three distinct vertices stay: they are harmless to Doo-Sabin, and
 /// what hangs together through them stays together.
 ///
-/// Vertices and faces keep their order; copies follow at the end, in order of the vertices they
-/// copy. A face that needs nothing keeps its corners as they are. Winding is never looked at.
-/// Copies lie where their original lies, so a second run changes nothing if it does not weld.
+/// Colours are dropped: soundMesh (sound.h) follows them. Vertices and faces keep their order;
+/// copies follow at the end, in order of the vertices they copy. A face that needs nothing keeps
+/// its corners as they are. Winding is never looked at. Copies lie where their original lies, so a
+/// second run changes nothing if it does not weld.
 ///
 /// @throws MeshError   the arrays contradict themselves (requireValidArrays)
 /// @throws UsageError  the tolerance is negative or not finite

@@ -2,7 +2,10 @@
 
 #include "libvox/prepare/sound.h"
 
+#include "libvox/mesh/validate.h"
+
 #include <utility>
+#include <vector>
 
 namespace vox {
 namespace {
@@ -14,11 +17,40 @@ void nameInputElements(OrientReport& report, const RepairReport& before) {
   if (report.firstFlipped != kNone) report.firstFlipped = before.faceOrigin[report.firstFlipped];
 }
 
+/// The mean colour of the points welded to each point. Summed in the order of their numbers.
+std::vector<Vec3f> meanOfWelded(const std::vector<Vec3f>& colors,
+                                const std::vector<Index>& weldedTo) {
+  std::vector<Vec3d> sums(colors.size(), Vec3d::Zero());
+  std::vector<Index> counts(colors.size(), 0);
+  for (std::size_t v = 0; v < colors.size(); ++v) {
+    sums[weldedTo[v]] += colors[v].cast<double>();
+    ++counts[weldedTo[v]];
+  }
+  std::vector<Vec3f> means(colors);
+  for (std::size_t v = 0; v < colors.size(); ++v)
+    if (counts[v] > 1) means[v] = (sums[v] / counts[v]).cast<float>();
+  return means;
+}
+
+std::vector<Vec3f> followed(const std::vector<Vec3f>& colors, const std::vector<Index>& origin) {
+  if (colors.empty()) return {};
+  std::vector<Vec3f> result;
+  result.reserve(origin.size());
+  for (const Index from : origin) result.push_back(colors[from]);
+  return result;
+}
+
 }  // namespace
 
 PolygonMesh soundMesh(PolygonMesh mesh, const RepairOptions& options, SoundReport& report) {
+  requireValidArrays(mesh);
+  const std::vector<Vec3f> pointColors = std::exchange(mesh.pointColors, {});
+  const std::vector<Vec3f> faceColors = std::exchange(mesh.faceColors, {});
   mesh = orient(repair(std::move(mesh), options, report.repair), report.orient);
   nameInputElements(report.orient, report.repair);
+  mesh.pointColors =
+      followed(meanOfWelded(pointColors, report.repair.weldedTo), report.orient.pointOrigin);
+  mesh.faceColors = followed(faceColors, report.orient.faceOrigin);
   return mesh;
 }
 

@@ -13,7 +13,8 @@ struct SoundReport {
   OrientReport orient;
 };
 
-/// A mesh that can be subdivided: repaired, then oriented. May be empty.
+/// A mesh that can be subdivided: repaired, then oriented. May be empty. Copies of points and faces
+/// have the colours of what they copy; points that are welded, the mean of theirs.
 /// @throws MeshError, UsageError, LimitError  as repair and orient
 PolygonMesh soundMesh(PolygonMesh mesh, const RepairOptions& options, SoundReport& report);
 

@@ -4,22 +4,12 @@
 
 #include "libvox/core/error.h"
 #include "libvox/subdivide/stop.h"
-#include "libvox/subdivide/vertex_split.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace vox {
 namespace {
-
-/// Sizes halve with every level, from 2^32 voxels at most.
-constexpr int kMostLevels = 64;
-
-void requireDepth(int level) {
-  if (level > kMostLevels)
-    throw LimitError("the surface needs more than " + std::to_string(kMostLevels) +
-                     " subdivision levels; use larger voxels");
-}
 
 Vec3d middle(const Vec3d& a, const Vec3d& b) {
   return (a + b) / 2.0;
@@ -30,20 +20,8 @@ double quadDiameter(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d&
   return diameter(corners);
 }
 
-std::size_t before(const ExtraordinaryFace& face, std::size_t i) {
-  return (i == 0 ? face.inner.size() : i) - 1;
-}
-std::size_t after(const ExtraordinaryFace& face, std::size_t i) {
-  return i + 1 == face.inner.size() ? 0 : i + 1;
-}
-
-/// Where the polygon is mirrored, its real half ends at the middle of two edges.
-bool mirrored(const ExtraordinaryFace& face) {
-  return face.real < face.inner.size();
-}
-
 double faceDiameter(const ExtraordinaryFace& face, std::vector<Vec3d>& work) {
-  if (!mirrored(face)) return diameter(face.inner);
+  if (!face.mirrored()) return diameter(face.inner);
   work.assign(face.inner.begin(), face.inner.begin() + static_cast<std::ptrdiff_t>(face.real));
   work.push_back(middle(face.inner[face.real - 1], face.inner[face.real]));
   work.push_back(middle(face.inner.back(), face.inner.front()));
@@ -53,17 +31,17 @@ double faceDiameter(const ExtraordinaryFace& face, std::vector<Vec3d>& work) {
 /// Diameter of the face across the edge i, i+1; of a mirrored one, of its real half.
 double edgeDiameter(const ExtraordinaryFace& face, std::size_t i) {
   const Vec3d& a = face.inner[i];
-  const Vec3d& b = face.inner[after(face, i)];
-  if (mirrored(face) && i == face.real - 1)
+  const Vec3d& b = face.inner[face.after(i)];
+  if (face.mirrored() && i == face.real - 1)
     return quadDiameter(a, middle(a, b), middle(face.near[i], face.far[i]), face.near[i]);
-  if (mirrored(face) && i + 1 == face.inner.size())
+  if (face.mirrored() && i + 1 == face.inner.size())
     return quadDiameter(b, middle(a, b), middle(face.near[i], face.far[i]), face.far[i]);
   return quadDiameter(a, b, face.far[i], face.near[i]);
 }
 
 /// Largest diameter of the faces that touch corner i only or across an edge.
 double diameterAround(const ExtraordinaryFace& face, std::size_t i) {
-  const std::size_t j = before(face, i);
+  const std::size_t j = face.before(i);
   double size = 0;
   if (face.hasEdge[i]) size = edgeDiameter(face, i);
   if (face.hasEdge[j]) size = std::max(size, edgeDiameter(face, j));
@@ -72,27 +50,9 @@ double diameterAround(const ExtraordinaryFace& face, std::size_t i) {
   return size;
 }
 
-VertexSplit splitAt(const ExtraordinaryFace& face, const std::vector<Vec3d>& images,
-                    std::size_t i) {
-  const std::size_t j = before(face, i);
-  const std::size_t n = after(face, i);
-  const Vec3d& at = face.inner[i];
-  VertexSplit split;
-  split.f0 = images[i];
-  split.fNext = images[n];
-  split.fPrevious = images[j];
-  split.r = quadImages(at, face.inner[n], face.far[i], face.near[i]);
-  split.l = quadImages(at, face.inner[j], face.near[j], face.far[j]);
-  split.setK(quadImages(at, face.near[i], face.corner[i], face.far[j]));
-  split.hasR = face.hasEdge[i];
-  split.hasL = face.hasEdge[j];
-  split.hasK = face.hasCorner[i];
-  return split;
-}
-
 /// The surroundings of corner i one level down.
 void descend(const VertexSplit& split, std::size_t i, ExtraordinaryFace& next) {
-  const std::size_t j = before(next, i);
+  const std::size_t j = next.before(i);
   next.near[i] = split.r[0];
   next.far[i] = split.r[1];
   next.near[j] = split.l[1];
@@ -111,12 +71,36 @@ void ExtraordinaryFace::reset(std::size_t n) {
   real = n;
 }
 
+VertexSplit ExtraordinaryFace::splitAt(std::span<const Vec3d> images, std::size_t i) const {
+  const std::size_t j = before(i);
+  const std::size_t n = after(i);
+  const Vec3d& at = inner[i];
+  VertexSplit split;
+  split.f0 = images[i];
+  split.fNext = images[n];
+  split.fPrevious = images[j];
+  split.r = quadImages(at, inner[n], far[i], near[i]);
+  split.l = quadImages(at, inner[j], near[j], far[j]);
+  split.setK(quadImages(at, near[i], corner[i], far[j]));
+  split.hasR = hasEdge[i];
+  split.hasL = hasEdge[j];
+  split.hasK = hasCorner[i];
+  return split;
+}
+
+void requireLevelInRange(int level) {
+  constexpr int kMostLevels = 64;
+  if (level > kMostLevels)
+    throw LimitError("the surface needs more than " + std::to_string(kMostLevels) +
+                     " subdivision levels; use larger voxels");
+}
+
 void ExtraordinarySubdivision::run(ExtraordinaryFace& face, int level, SurfaceSink& sink) {
   const std::size_t n = face.inner.size();
   const double contractionHere = std::max(contraction(n), contraction(4));
   next_ = face;
   for (;; ++level) {
-    requireDepth(level);
+    requireLevelInRange(level);
     innerImages_.resize(n);
     images_.of(face.inner, innerImages_);
     const double size = faceDiameter(face, work_);
@@ -131,8 +115,8 @@ void ExtraordinarySubdivision::run(ExtraordinaryFace& face, int level, SurfaceSi
         finished_.push_back(face.inner[i]);
         continue;
       }
-      const VertexSplit split = splitAt(face, innerImages_, i);
-      if (!mirrored(face) && split.hasR && split.hasL && split.hasK &&
+      const VertexSplit split = face.splitAt(innerImages_, i);
+      if (!face.mirrored() && split.hasR && split.hasL && split.hasK &&
           childrenFineEnough(largest, contractionHere)) {
         for (const Vec3d& child : {split.f0, split.r[0], split.l[0], split.k0})
           finishedChildren_.push_back(child);
@@ -156,32 +140,45 @@ TriangleImages::TriangleImages(const Vec3d& at, const Vec3d& start, const Vec3d&
       mStart((3.0 * start + end) / 4.0),
       mEnd((start + 3.0 * end) / 4.0) {}
 
+VertexSplit BoundaryCorner::split() const {
+  const auto mirror = [](const Vec3d& p, const Vec3d& m) -> Vec3d { return 2.0 * m - p; };
+  const TriangleImages t(u, mStart, mEnd);
+  VertexSplit split;
+  split.setF(quadImages(u, right, opposite, left));
+  split.r = quadImages(u, right, mirror(right, mRight), mirror(u, mStart));
+  split.l = quadImages(u, left, mirror(left, mLeft), mirror(u, mEnd));
+  split.k0 = t.u;
+  split.kRight = mirror(t.u, t.mStart);
+  split.kLeft = mirror(t.u, t.mEnd);
+  return split;
+}
+
+BoundaryCorner BoundaryCorner::below(const VertexSplit& split) const {
+  const TriangleImages t(u, mStart, mEnd);
+  // Besides, the children of the strips' corners.
+  return {t.u,
+          t.mStart,
+          t.mEnd,
+          split.r[0],
+          (3.0 * mStart + mRight) / 4.0,
+          split.l[0],
+          (3.0 * mEnd + mLeft) / 4.0,
+          split.f0};
+}
+
 void subdivideBoundaryCorner(BoundaryCorner at, int level, SurfaceSink& sink) {
   for (;; ++level) {
-    requireDepth(level);
+    requireLevelInRange(level);
     const std::array<Vec3d, 3> triangle = {at.u, at.mStart, at.mEnd};
     const double size =
         std::max({diameter(triangle), quadDiameter(at.u, at.right, at.mRight, at.mStart),
                   quadDiameter(at.u, at.left, at.mLeft, at.mEnd),
                   quadDiameter(at.u, at.right, at.opposite, at.left)});
     if (size <= kVertexConversionSpan) return sink.points({&at.u, 1}, level);
-
-    const auto mirror = [](const Vec3d& p, const Vec3d& m) -> Vec3d { return 2.0 * m - p; };
-    const TriangleImages t(at.u, at.mStart, at.mEnd);
-    VertexSplit split;
-    split.setF(quadImages(at.u, at.right, at.opposite, at.left));
-    split.r = quadImages(at.u, at.right, mirror(at.right, at.mRight), mirror(at.u, at.mStart));
-    split.l = quadImages(at.u, at.left, mirror(at.left, at.mLeft), mirror(at.u, at.mEnd));
-    split.k0 = t.u;
-    split.kRight = mirror(t.u, t.mStart);
-    split.kLeft = mirror(t.u, t.mEnd);
+    const VertexSplit split = at.split();
     split.emitSides(level + 1, sink);
     split.emitInF(level + 1, sink);
-
-    const Vec3d mRight =
-        (3.0 * at.mStart + at.mRight) / 4.0;  // the children of the strips' corners
-    const Vec3d mLeft = (3.0 * at.mEnd + at.mLeft) / 4.0;
-    at = {t.u, t.mStart, t.mEnd, split.r[0], mRight, split.l[0], mLeft, split.f0};
+    at = at.below(split);
   }
 }
 

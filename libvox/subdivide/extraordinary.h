@@ -2,7 +2,9 @@
 
 #include "libvox/mesh/patch.h"
 #include "libvox/subdivide/face_images.h"
+#include "libvox/subdivide/vertex_split.h"
 
+#include <span>
 #include <vector>
 
 namespace vox {
@@ -28,7 +30,18 @@ struct ExtraordinaryFace {
 
   /// All slots for an n-gon, none active, with faces all around.
   void reset(std::size_t n);
+
+  std::size_t before(std::size_t i) const { return (i == 0 ? inner.size() : i) - 1; }
+  std::size_t after(std::size_t i) const { return i + 1 == inner.size() ? 0 : i + 1; }
+  /// Where the polygon is mirrored, its real half ends at the middle of two edges.
+  bool mirrored() const { return real < inner.size(); }
+  /// One step at corner i, with the polygon as F; `images` are those of the polygon.
+  VertexSplit splitAt(std::span<const Vec3d> images, std::size_t i) const;
 };
+
+/// Bound of the levels below an extraordinary face: sizes halve, from 2^32 voxels at most.
+/// @throws LimitError  level is beyond it
+void requireLevelInRange(int level);
 
 /// Subdivides the active vertices of an extraordinary face of `level`, each until it is fine
 /// enough. Every level is one O(n) step, which gives off three regular vertices for each active one
@@ -52,6 +65,11 @@ class ExtraordinarySubdivision {
 /// the quad [u, right, opposite, left] behind it.
 struct BoundaryCorner {
   Vec3d u, mStart, mEnd, right, mRight, left, mLeft, opposite;
+
+  /// One step, with the quad as F and T, of which only the images next to u are known, as K.
+  VertexSplit split() const;
+  /// The same corner one level down, where it is K's child.
+  BoundaryCorner below(const VertexSplit& split) const;
 };
 
 /// Images of T (m = 1 in DESIGN section 4): u' = u/2 + (mStart + mEnd)/4, and Chaikin points.

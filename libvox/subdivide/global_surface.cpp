@@ -5,11 +5,10 @@
 #include "libvox/core/error.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
+#include "libvox/subdivide/vertex_patch.h"
 #include "libvox/subdivide/vertex_split.h"
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,6 +26,7 @@ class Decisions {
             SurfaceSink& sink)
       : number_(number),
         sink_(sink),
+        level_(level),
         mesh_(level.mesh),
         adjacency_(level.adjacency),
         strips_(level.boundary == BoundaryStage::kStrips),
@@ -52,16 +52,17 @@ class Decisions {
 
   void decide(Index v) {
     const OneRing ring = oneRing(mesh_, adjacency_, cornerAt_[v]);
+    const double largest = largestFace(mesh_, adjacency_, ring);
     if (strips_ && onBoundary_[v]) {
-      levelsToGo_[v] = curveDepth(largestFace(ring));
+      levelsToGo_[v] = curveDepth(largest);
       return;
     }
-    if (const auto patch = patchAround(ring))
+    if (const auto patch = patchAround(level_, ring, mesh_.points))
       decideRegular(v, *patch);
-    else if (largestFace(ring) <= kVertexConversionSpan)
+    else if (largest <= kVertexConversionSpan)
       levelsToGo_[v] = 0;
     else if (ring.closed && !touchesStrip(ring) &&
-             childrenFineEnough(largestFace(ring), largestContraction(ring)))
+             childrenFineEnough(largest, largestContraction(ring)))
       levelsToGo_[v] = 1;
   }
 
@@ -88,67 +89,9 @@ class Decisions {
     return largest;
   }
 
-  double largestFace(const OneRing& ring) const {
-    double largest = 0;
-    std::vector<Vec3d> points;
-    for (const Index c : ring.corners) {
-      points.clear();
-      for (const Index v : mesh_.face(faceOf(c))) points.push_back(mesh_.points[v]);
-      largest = std::max(largest, diameter(points));
-    }
-    return largest;
-  }
-
-  /// Quads only, four of them, or fewer at a free boundary.
-  std::optional<Patch> patchAround(const OneRing& ring) const {
-    if (ring.closed ? ring.corners.size() != 4 : ring.corners.size() > 3) return {};
-    for (const Index c : ring.corners)
-      if (mesh_.faceSize(faceOf(c)) != 4) return {};
-    // Quadrants in counter-clockwise order, and the steps to the next vertex along each face.
-    constexpr std::array<std::array<int, 2>, 4> kAlong = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-    constexpr std::array<unsigned, 4> kQuadrant = {3, 1, 0, 2};
-    Patch patch;
-    for (auto& row : patch.points) row.fill(mesh_.points[mesh_.faceVertices[ring.corners[0]]]);
-    unsigned quadrants = 0;
-    for (std::size_t k = 0; k < ring.corners.size(); ++k) {
-      const auto& a = kAlong[k];
-      const auto& b = kAlong[(k + 1) % 4];
-      const auto put = [&](int u, int v, const Vec3d& p) {
-        patch.points[static_cast<std::size_t>(u + 1)][static_cast<std::size_t>(v + 1)] = p;
-      };
-      const auto face = quadFrom(ring.corners[k]);
-      put(a[0], a[1], face[1]);
-      put(a[0] + b[0], a[1] + b[1], face[2]);
-      put(b[0], b[1], face[3]);
-      quadrants |= 1U << kQuadrant[k];
-    }
-    patch.quadrants = static_cast<std::uint8_t>(quadrants);
-    return patch;
-  }
-
-  /// The points of a quad from one of its corners on. Two on the boundary of an extended surface
-  /// are replaced by mirror images of the other two, whose middles they are.
-  std::array<Vec3d, 4> quadFrom(Index corner) const {
-    std::array<Vec3d, 4> points;
-    std::array<Index, 4> corners;
-    Index c = corner;
-    for (std::size_t i = 0; i < 4; ++i, c = nextCorner(mesh_, adjacency_, c)) {
-      corners[i] = c;
-      points[i] = mesh_.points[mesh_.faceVertices[c]];
-    }
-    if (!strips_) return points;
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (adjacency_.twin[corners[i]] != kNone) continue;
-      const std::size_t start = i;
-      const std::size_t end = (i + 1) % 4;
-      points[start] = 2.0 * points[start] - points[(start + 3) % 4];
-      points[end] = 2.0 * points[end] - points[(end + 1) % 4];
-    }
-    return points;
-  }
-
   int number_;  // of the level
   SurfaceSink& sink_;
+  const SubdivisionLevel& level_;
   const PolygonMesh& mesh_;
   const Adjacency& adjacency_;
   bool strips_;

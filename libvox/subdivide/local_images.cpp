@@ -133,8 +133,13 @@ void LocalImages::closeFan(Star& star) {
   const Vec3d c = (star.mStart + star.mEnd) / 2.0;
   const Vec3d d = (star.mStart - star.mEnd) / 2.0;
   const std::vector<StripWeight> weights = stripWeights(star.fan);
+  // Next to the boundary with the same bits as in the faces across its edges.
+  const auto middle = [&](Index i) -> Vec3d {
+    if (i == 0) return star.mStart;
+    return i + 1 == star.fan ? star.mEnd : Vec3d(c + weights[i].ratio * d);
+  };
   for (Index i = star.fan; i-- > 0;)
-    starPoints_.push_back(mirror(starPoints_[star.begin + i], c + weights[i].ratio * d));
+    starPoints_.push_back(mirror(starPoints_[star.begin + i], middle(i)));
 }
 
 void LocalImages::addEdge(Index slot, Index corner) {

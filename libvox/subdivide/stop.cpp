@@ -15,31 +15,9 @@ int halvings(double size) {
   return k;
 }
 
-/// Bit of a face between index a and a + 1 along u and b and b + 1 along v.
-constexpr unsigned faceBit(unsigned a, unsigned b) {
-  return 1U << (2 * a + b);
+bool fineAt(const PatchSteps& steps, int alongU, int alongV) {
+  return steps.sizeBelow(alongU, alongV) <= kVertexConversionSpan;
 }
-
-/// Largest steps along u and v over the faces that exist.
-struct Steps {
-  Vec3d u = Vec3d::Zero();
-  Vec3d v = Vec3d::Zero();
-  explicit Steps(const Patch& patch) {
-    const auto& p = patch.points;
-    for (unsigned a = 0; a < 2; ++a)
-      for (unsigned b = 0; b < 2; ++b) {
-        if ((patch.quadrants & faceBit(a, b)) == 0) continue;
-        u = u.cwiseMax((p[a + 1][b] - p[a][b]).cwiseAbs());
-        u = u.cwiseMax((p[a + 1][b + 1] - p[a][b + 1]).cwiseAbs());
-        v = v.cwiseMax((p[a][b + 1] - p[a][b]).cwiseAbs());
-        v = v.cwiseMax((p[a + 1][b + 1] - p[a + 1][b]).cwiseAbs());
-      }
-  }
-  bool fineAt(int alongU, int alongV) const {
-    const Vec3d size = u * std::ldexp(1.0, -alongU) + v * std::ldexp(1.0, -alongV);
-    return size.maxCoeff() <= kVertexConversionSpan;
-  }
-};
 
 double verticesOf(const PatchDepth& depth) {
   const double array = std::ldexp(1.0, depth.alongU + depth.alongV);
@@ -47,20 +25,34 @@ double verticesOf(const PatchDepth& depth) {
 }
 
 /// The cheapest depths along the two axes, if they save at least half.
-PatchDepth elongatedDepth(const Steps& steps, int levels) {
+PatchDepth elongatedDepth(const PatchSteps& steps, int levels) {
   const PatchDepth square = {levels, levels, levels};
   PatchDepth best = square;
   for (const int most : {levels, levels + 1})
     for (int least = 0; least < levels; ++least) {
       const PatchDepth wide = {levels, most, least};
       const PatchDepth high = {levels, least, most};
-      if (steps.fineAt(most, least) && verticesOf(wide) < verticesOf(best)) best = wide;
-      if (steps.fineAt(least, most) && verticesOf(high) < verticesOf(best)) best = high;
+      if (fineAt(steps, most, least) && verticesOf(wide) < verticesOf(best)) best = wide;
+      if (fineAt(steps, least, most) && verticesOf(high) < verticesOf(best)) best = high;
     }
   return 2 * verticesOf(best) <= verticesOf(square) ? best : square;
 }
 
 }  // namespace
+
+PatchSteps::PatchSteps(const Patch& patch) {
+  // Bit of a face between index a and a + 1 along u and b and b + 1 along v.
+  const auto faceBit = [](unsigned a, unsigned b) { return 1U << (2 * a + b); };
+  const auto& p = patch.points;
+  for (unsigned a = 0; a < 2; ++a)
+    for (unsigned b = 0; b < 2; ++b) {
+      if ((patch.quadrants & faceBit(a, b)) == 0) continue;
+      u = u.cwiseMax((p[a + 1][b] - p[a][b]).cwiseAbs());
+      u = u.cwiseMax((p[a + 1][b + 1] - p[a][b + 1]).cwiseAbs());
+      v = v.cwiseMax((p[a][b + 1] - p[a][b]).cwiseAbs());
+      v = v.cwiseMax((p[a + 1][b + 1] - p[a + 1][b]).cwiseAbs());
+    }
+}
 
 double contraction(std::size_t sides) {
   switch (sides) {
@@ -84,7 +76,7 @@ bool childrenFineEnough(double largestDiameter, double largestContraction) {
 }
 
 PatchDepth patchDepth(const Patch& patch) {
-  const Steps steps(patch);
+  const PatchSteps steps(patch);
   const int k = halvings((steps.u + steps.v).maxCoeff());
   constexpr int kLeastElongated = 4;  // fewer vertices are not worth it
   constexpr double kAspect = 6;

@@ -60,31 +60,40 @@ void emitRegular(const Patch& patch, int level, SurfaceSink& sink) {
     sink.patch(patch, depth.levels, level + depth.levels);
 }
 
-void VertexSplit::emitSides(int level, SurfaceSink& sink) const {
+Patch VertexSplit::childInR() const {
   const bool ring = hasR && hasL && hasK;  // the vertex has a V-face
-  if (hasR)
-    emitRegular({{{{kRight, k0, l[0]}, {r[3], r[0], f0}, {r[2], r[1], fNext}}},
-                 quadrants(hasK, ring, true, true)},
-                level, sink);
-  if (hasL)
-    emitRegular({{{{kLeft, l[3], l[2]}, {k0, l[0], l[1]}, {r[0], f0, fPrevious}}},
-                 quadrants(hasK, true, ring, true)},
-                level, sink);
+  return {{{{kRight, k0, l[0]}, {r[3], r[0], f0}, {r[2], r[1], fNext}}},
+          quadrants(hasK, ring, true, true)};
+}
+
+Patch VertexSplit::childInL() const {
+  const bool ring = hasR && hasL && hasK;
+  return {{{{kLeft, l[3], l[2]}, {k0, l[0], l[1]}, {r[0], f0, fPrevious}}},
+          quadrants(hasK, true, ring, true)};
+}
+
+Patch VertexSplit::childInF() const {
+  const bool ring = hasR && hasL && hasK;
+  return {{{{k0, l[0], l[1]}, {r[0], f0, fPrevious}, {r[1], fNext, fOpposite}}},
+          quadrants(ring, hasL, hasR, true)};
+}
+
+Patch VertexSplit::childInK() const {
+  return {{{{kOpposite, kLeft, l[3]}, {kRight, k0, l[0]}, {r[3], r[0], f0}}},
+          quadrants(true, hasL, hasR, hasR && hasL)};
+}
+
+void VertexSplit::emitSides(int level, SurfaceSink& sink) const {
+  if (hasR) emitRegular(childInR(), level, sink);
+  if (hasL) emitRegular(childInL(), level, sink);
 }
 
 void VertexSplit::emitInF(int level, SurfaceSink& sink) const {
-  const bool ring = hasR && hasL && hasK;
-  emitRegular({{{{k0, l[0], l[1]}, {r[0], f0, fPrevious}, {r[1], fNext, fOpposite}}},
-               quadrants(ring, hasL, hasR, true)},
-              level, sink);
+  emitRegular(childInF(), level, sink);
 }
 
 void VertexSplit::emitInK(int level, SurfaceSink& sink) const {
-  if (!hasK) return;
-  const bool ring = hasR && hasL;
-  emitRegular({{{{kOpposite, kLeft, l[3]}, {kRight, k0, l[0]}, {r[3], r[0], f0}}},
-               quadrants(true, hasL, hasR, ring)},
-              level, sink);
+  if (hasK) emitRegular(childInK(), level, sink);
 }
 
 }  // namespace vox

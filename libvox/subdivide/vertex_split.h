@@ -41,6 +41,13 @@ struct VertexSplit {
     k0 = images[0], kRight = images[1], kOpposite = images[2], kLeft = images[3];
   }
 
+  /// The children, as far as all their faces are quads: those in R and L, the one in F and the one
+  /// in K where these are quads.
+  Patch childInR() const;
+  Patch childInL() const;
+  Patch childInF() const;
+  Patch childInK() const;
+
   /// Gives the sink the children in R and L, whose faces are quads, at `level`.
   void emitSides(int level, SurfaceSink& sink) const;
   /// The child in F, when F is a quad.

@@ -4,7 +4,7 @@
 
 namespace vox {
 
-/// Fog volume `density`: 1 at the voxels of the mask, background 0, the mask's transform.
-openvdb::FloatGrid::Ptr densityGrid(const openvdb::MaskGrid& mask);
+/// Fog volume `density`: `value` at the voxels and tiles of the mask, background 0.
+openvdb::FloatGrid::Ptr densityGrid(const openvdb::MaskTree& mask, float value = 1);
 
 }  // namespace vox

@@ -317,13 +317,18 @@ class TriangleScan {
   TriangleScan(const Snapped& snapped, Index triangle, Sink& sink);
 
   void scan(Separation separation) {
-    for (std::int32_t v = rows_.lo; v <= rows_.hi; v += kTile) {
-      const auto count = static_cast<std::size_t>(std::min(kTile, rows_.hi - v + 1));
-      if (separation == Separation::k26)
-        scanRows26(v, count);
-      else
-        scanRows6(v, count);
-    }
+    for (std::int64_t part = 0; part < partCount(); ++part) scanPart(part, separation);
+  }
+
+  /// Parts are tiles of rows.
+  std::int64_t partCount() const { return (std::int64_t{rows_.hi} - rows_.lo + kTile) / kTile; }
+  void scanPart(std::int64_t part, Separation separation) {
+    const auto v = static_cast<std::int32_t>(rows_.lo + part * kTile);
+    const auto count = static_cast<std::size_t>(std::min(kTile, rows_.hi - v + 1));
+    if (separation == Separation::k26)
+      scanRows26(v, count);
+    else
+      scanRows6(v, count);
   }
 
  private:
@@ -512,13 +517,17 @@ bool TriangleScan<Int>::black6(const Tables6& tables, std::size_t column, std::s
   return alongU | alongV;
 }
 
+/// Calls work with the scan of a triangle.
+template <class Work>
+auto withScan(std::span<const Vec3d, 3> corners, Index triangle, Sink& sink, Work&& work) {
+  const Snapped snapped = snap(corners, triangle);
+  if (snapped.extent <= kExtent64) return work(TriangleScan<std::int64_t>(snapped, triangle, sink));
+  return work(TriangleScan<Int128>(snapped, triangle, sink));
+}
+
 void scanLarge(std::span<const Vec3d, 3> corners, Index triangle, Separation separation,
                Sink& sink) {
-  const Snapped snapped = snap(corners, triangle);
-  if (snapped.extent <= kExtent64)
-    TriangleScan<std::int64_t>(snapped, triangle, sink).scan(separation);
-  else
-    TriangleScan<Int128>(snapped, triangle, sink).scan(separation);
+  withScan(corners, triangle, sink, [&](auto&& scan) { scan.scan(separation); });
 }
 
 /// Feeds the vector kernel, a chunk of blocks at a time.
@@ -643,4 +652,20 @@ void scanTriangle(std::span<const Vec3d, 3> corners, Separation separation, Emit
   sink.flush();
 }
 
+void scanPart(std::span<const Vec3d, 3> corners, std::int64_t part, Separation separation,
+              EmitBlocks emit, void* visit) {
+  Sink sink(emit, visit);
+  withScan(corners, 0, sink, [&](auto&& scan) { scan.scanPart(part, separation); });
+  sink.flush();
+}
+
 }  // namespace vox::detail
+
+namespace vox {
+
+std::int64_t scanPartCount(std::span<const Vec3d, 3> corners) {
+  detail::Sink unused([](void*, std::span<const VoxelBlock>) {}, nullptr);
+  return detail::withScan(corners, 0, unused, [](auto&& scan) { return scan.partCount(); });
+}
+
+}  // namespace vox

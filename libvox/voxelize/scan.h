@@ -43,6 +43,8 @@ void scanTriangles(std::span<const Vec3d> points, std::span<const std::array<Ind
                    Separation separation, EmitBlocks emit, void* visit);
 void scanTriangle(std::span<const Vec3d, 3> corners, Separation separation, EmitBlocks emit,
                   void* visit);
+void scanPart(std::span<const Vec3d, 3> corners, std::int64_t part, Separation separation,
+              EmitBlocks emit, void* visit);
 
 template <class Visit>
 void emitTo(void* visit, std::span<const VoxelBlock> blocks) {
@@ -94,6 +96,19 @@ template <class Visit>
 void scanTriangle(std::span<const Vec3d, 3> corners, Separation separation, Visit&& visit) {
   using Plain = std::remove_reference_t<Visit>;
   detail::scanTriangle(corners, separation, &detail::emitTo<Plain>, &visit);
+}
+
+/// In how many parts a large triangle can be scanned, by as many threads: of 256 rows of voxels
+/// each.
+/// @throws LimitError  as scanTriangles
+std::int64_t scanPartCount(std::span<const Vec3d, 3> corners);
+
+/// One of these parts: together they are the voxels of scanTriangle, each once.
+template <class Visit>
+void scanTrianglePart(std::span<const Vec3d, 3> corners, std::int64_t part, Separation separation,
+                      Visit&& visit) {
+  using Plain = std::remove_reference_t<Visit>;
+  detail::scanPart(corners, part, separation, &detail::emitTo<Plain>, &visit);
 }
 
 }  // namespace vox

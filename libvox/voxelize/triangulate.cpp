@@ -6,6 +6,8 @@
 
 #include "libvox/voxelize/triangulate.h"
 
+#include "libvox/mesh/area_vector.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -30,12 +32,8 @@ Int128 turn(const Flat& a, const Flat& b, const Flat& c) {
   return Int128{b.x - a.x} * (c.y - a.y) - Int128{b.y - a.y} * (c.x - a.x);
 }
 
-/// Twice the area vector; does not depend on where the polygon lies.
 Vec3d newellNormal(std::span<const Vec3d> corners) {
-  Vec3d normal = Vec3d::Zero();
-  for (std::size_t i = 2; i < corners.size(); ++i)
-    normal += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
-  return normal;
+  return twiceAreaVector(corners.size(), [&](std::size_t i) { return corners[i]; });
 }
 
 /// The corners seen against the normal, counter-clockwise, at most kLatticeReach from corner 0.

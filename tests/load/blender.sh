@@ -1,30 +1,59 @@
 #!/usr/bin/env bash
-# Headless Blender reads what vox writes. Usage: blender.sh VOX SCENES
+# Headless Blender reads what vox writes, and renders it. Usage: blender.sh VOX SCENES PICTURE
 set -euo pipefail
 command -v blender >/dev/null || { echo "skipped: blender is not installed"; exit 77; }
+script=$(realpath "$2/../apps/blender/vox_import.py")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$1" convert "$2/toy_jack.toml" -o "$folder/jack.vdb" --dim 100 --grids density,mask
+"$1" convert "$2/toy_jack.toml" -o "$folder/jack.vdb" --dim 100 --grids density,mask,color \
+  --texture 'checker:scale=0.5,colors=1:0.02:0.02/0.02:0.02:1'
 
 cat >"$folder/load.py" <<'PY'
+import importlib.util
 import sys
+
 import bpy
 
-bpy.ops.object.volume_import(filepath=sys.argv[-1])
-volume = bpy.context.object
+script, vdb, picture = sys.argv[-3:]
+spec = importlib.util.spec_from_file_location("vox_import", script)
+vox_import = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(vox_import)
+vox_import.make_way()
+assert "Cube" not in bpy.data.objects
+volume = vox_import.import_vdb(vdb)
 assert volume.type == "VOLUME"
 grids = volume.data.grids
-assert grids.load(), grids.error_message
 found = {grid.name: (grid.data_type, grid.channels) for grid in grids}
-assert found == {"density": ("FLOAT", 1), "mask": ("MASK", 1)}, found
-bpy.context.view_layer.update()
+assert found == {"density": ("FLOAT", 1), "mask": ("MASK", 1), "color": ("VECTOR_FLOAT", 3)}, found
+for grid in grids:  # 2 units are 100 voxels
+    scale = [grid.matrix_object[i][i] for i in range(3)]
+    assert all(abs(s - 0.02) < 1e-6 for s in scale), (grid.name, scale)
+    assert grid.matrix_object.to_translation().length < 1e-6, grid.name
 box = [tuple(round(x, 2) for x in corner) for corner in volume.bound_box]
 sides = [max(c[i] for c in box) - min(c[i] for c in box) for i in range(3)]
 # The jack is 2 units wide; Blender rounds up to whole leaves of 8 voxels on either side.
 assert all(2 <= side <= 2 + 16 * 0.02 for side in sides), sides
-print("vox-blender-ok", bpy.app.version_string, found, sides)
+
+vox_import.frame(volume)
+scene = bpy.context.scene
+scene.render.resolution_x, scene.render.resolution_y = 320, 240
+scene.render.film_transparent = True
+scene.cycles.samples = 16
+scene.cycles.use_denoising = False
+scene.render.filepath = picture
+bpy.ops.render.render(write_still=True)
+
+# Red and blue are there in about equal parts, each pure, and much of the picture is neither.
+pixels = list(bpy.data.images.load(picture).pixels)
+solid = [pixels[i : i + 3] for i in range(0, len(pixels), 4) if pixels[i + 3] > 0.9]
+red = sum(r > 2 * b and r > 2 * g for r, g, b in solid)
+blue = sum(b > 2 * r and b > 2 * g for r, g, b in solid)
+total = len(pixels) // 4
+assert 0.03 * total < len(solid) < 0.6 * total, (len(solid), total)
+assert red + blue > 0.7 * len(solid) and min(red, blue) > 0.2 * len(solid), (red, blue, len(solid))
+print("vox-blender-ok", bpy.app.version_string, found, sides, len(solid), red, blue)
 PY
 # Blender exits with 0 even when its script fails; the last line is what counts.
-blender --background --factory-startup --python "$folder/load.py" -- "$folder/jack.vdb" 2>&1 |
-  tee "$folder/log"
+blender --background --factory-startup --python "$folder/load.py" -- \
+  "$script" "$folder/jack.vdb" "$(realpath "${3:-$folder/jack.png}")" 2>&1 | tee "$folder/log"
 grep -q '^vox-blender-ok' "$folder/log"

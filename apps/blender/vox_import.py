@@ -1,0 +1,175 @@
+"""Voxel models of vox in Blender: import a .vdb with a ready material, and frame it.
+
+    blender --python vox_import.py -- model.vdb                       look at it
+    blender --background --python vox_import.py -- model.vdb out.png  a picture of it
+
+Or open this file in Blender's Text Editor and run it: File > Import then has "Voxel model (.vdb)".
+"""
+
+import sys
+
+import bpy
+from mathutils import Vector
+
+# Optical depth of one voxel: a shell that thin is to look solid.
+DEPTH_OF_VOXEL = 6.0
+LIGHT = Vector((-0.5, -0.6, 0.62))  # towards the sun, in world space
+
+
+def grids_of(volume):
+    """Grids of a volume by name, loaded from its file."""
+    grids = volume.data.grids
+    if not grids.load():
+        raise RuntimeError(f"{volume.data.filepath}: {grids.error_message}")
+    return {grid.name: grid for grid in grids}
+
+
+def add_material(volume):
+    """A material of the grids that are there.
+
+    The grid color is 0 outside the voxels, and so is density: where Blender mixes neighbours,
+    color / density is the colour of those voxels that are there. With the grid normal, the light is
+    computed by the material; without, the volume scatters the light of the scene.
+    """
+    grids = grids_of(volume)
+    if "density" not in grids:
+        raise RuntimeError(f"{volume.data.filepath} has no grid density; add it to --grids")
+    voxel = max(grids["density"].matrix_object.to_scale())
+    material = bpy.data.materials.new(volume.name)
+    material.use_nodes = True
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes.clear()
+
+    def node(kind, place, **settings):
+        made = nodes.new(kind)
+        made.location = place
+        for name, value in settings.items():
+            setattr(made, name, value)
+        return made
+
+    def vector_math(operation, place, a, b):
+        made = node("ShaderNodeVectorMath", place, operation=operation)
+        for socket, value in zip(made.inputs, (a, b)):
+            if isinstance(value, bpy.types.NodeSocket):
+                links.new(value, socket)
+            else:
+                socket.default_value = value
+        return made
+
+    density = node("ShaderNodeAttribute", (-900, 0), attribute_name="density")
+    depth = node("ShaderNodeMath", (-200, -200), operation="MULTIPLY")
+    depth.inputs[1].default_value = DEPTH_OF_VOXEL / voxel
+    links.new(density.outputs["Fac"], depth.inputs[0])
+    shader = node("ShaderNodeVolumePrincipled", (0, 0))
+    shader.inputs["Density Attribute"].default_value = ""
+    links.new(depth.outputs[0], shader.inputs["Density"])
+
+    color = None
+    if "color" in grids:
+        attribute = node("ShaderNodeAttribute", (-900, 250), attribute_name="color")
+        divided = vector_math("DIVIDE", (-650, 250), attribute.outputs["Vector"], density.outputs["Fac"])
+        color = divided.outputs[0]
+        links.new(color, shader.inputs["Color"])
+    if "normal" in grids:
+        attribute = node("ShaderNodeAttribute", (-900, 500), attribute_name="normal")
+        unit = vector_math("NORMALIZE", (-650, 500), attribute.outputs["Vector"], (0, 0, 0))
+        light = volume.matrix_world.inverted().to_3x3() @ LIGHT
+        facing = vector_math("DOT_PRODUCT", (-450, 500), unit.outputs[0], light.normalized())
+        strength = node("ShaderNodeMapRange", (-250, 500))
+        strength.inputs["From Min"].default_value = -0.2
+        strength.inputs["To Min"].default_value = 0.15
+        links.new(facing.outputs["Value"], strength.inputs["Value"])
+        shaded = vector_math("MULTIPLY", (-50, 300), color or (0.8, 0.8, 0.8), strength.outputs[0])
+        # All light is emitted: with an optical depth, brightness times density is what shows.
+        emitted = node("ShaderNodeMath", (-200, -400), operation="MULTIPLY")
+        emitted.inputs[1].default_value = 1.0
+        links.new(depth.outputs[0], emitted.inputs[0])
+        links.new(shaded.outputs[0], shader.inputs["Emission Color"])
+        links.new(emitted.outputs[0], shader.inputs["Emission Strength"])
+        for link in list(shader.inputs["Color"].links):
+            links.remove(link)
+        shader.inputs["Color"].default_value = (0, 0, 0, 1)
+    output = node("ShaderNodeOutputMaterial", (300, 0))
+    links.new(shader.outputs[0], output.inputs["Volume"])
+    volume.data.materials.append(material)
+    return material
+
+
+def import_vdb(path):
+    """The file as a volume object with a material."""
+    bpy.ops.object.volume_import(filepath=path, files=[])
+    volume = bpy.context.object
+    add_material(volume)
+    # Filtered light bounces within a dense volume; none would make it dark.
+    bpy.context.scene.cycles.volume_bounces = max(4, bpy.context.scene.cycles.volume_bounces)
+    bpy.context.scene.render.engine = "CYCLES"
+    bpy.context.view_layer.update()
+    return volume
+
+
+def frame(volume):
+    """Turns the camera towards the volume, with a sun, both made if there are none."""
+    scene = bpy.context.scene
+    corners = [volume.matrix_world @ Vector(corner) for corner in volume.bound_box]
+    if scene.camera is None:
+        scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+        scene.collection.objects.link(scene.camera)
+    camera = scene.camera
+    away = Vector((0.55, -0.75, 0.45)).normalized()
+    camera.rotation_euler = (-away).to_track_quat("-Z", "Y").to_euler()
+    bpy.context.view_layer.update()
+    coordinates = [x for corner in corners for x in corner]
+    camera.location, _ = camera.camera_fit_coords(bpy.context.evaluated_depsgraph_get(), coordinates)
+    distance = max((corner - camera.location).length for corner in corners)
+    camera.data.clip_start = distance / 10000
+    camera.data.clip_end = distance * 10
+    if not any(o.type == "LIGHT" and o.data.type == "SUN" for o in scene.objects):
+        sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
+        sun.data.energy = 5
+        sun.rotation_euler = (-LIGHT).to_track_quat("-Z", "Y").to_euler()
+        scene.collection.objects.link(sun)
+
+
+def make_way():
+    """Removes the cube of an untouched startup scene, which would hide the model."""
+    cube = bpy.data.objects.get("Cube")
+    if not bpy.data.filepath and cube is not None and len(cube.data.vertices) == 8:
+        bpy.data.objects.remove(cube)
+
+
+class ImportVoxelModel(bpy.types.Operator):
+    """Import a .vdb of vox with a material, and frame it"""
+
+    bl_idname = "import_scene.vox"
+    bl_label = "Voxel model (.vdb)"
+    filepath: bpy.props.StringProperty(subtype="FILE_PATH")
+    filter_glob: bpy.props.StringProperty(default="*.vdb", options={"HIDDEN"})
+
+    def execute(self, context):
+        frame(import_vdb(self.filepath))
+        return {"FINISHED"}
+
+    def invoke(self, context, event):
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+
+def menu_entry(menu, context):
+    menu.layout.operator(ImportVoxelModel.bl_idname)
+
+
+def main(arguments):
+    if not arguments:
+        bpy.utils.register_class(ImportVoxelModel)
+        bpy.types.TOPBAR_MT_file_import.append(menu_entry)
+        return
+    make_way()
+    frame(import_vdb(arguments[0]))
+    if len(arguments) > 1:
+        bpy.context.scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
+        bpy.context.scene.render.filepath = arguments[1]
+        bpy.ops.render.render(write_still=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])

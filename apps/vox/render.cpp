@@ -1,0 +1,278 @@
+// vox render: a picture of a .vdb file, or of what a mesh or scene becomes.
+
+#include "libvox/inspect/render.h"
+
+#include "apps/vox/command.h"
+#include "apps/vox/interrupt.h"
+#include "apps/vox/options.h"
+#include "apps/vox/progress_bar.h"
+#include "libvox/core/error.h"
+#include "libvox/io/atomic_file.h"
+#include "libvox/io/input_file.h"
+#include "libvox/io/read_vdb.h"
+#include "libvox/io/write_png.h"
+#include "libvox/pipeline/convert.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace vox::app {
+namespace {
+
+struct Options {
+  std::string input;
+  std::string output;
+  std::string views = "iso";
+  std::string up = "z";
+  std::string projection = projectionName(Projection::kOrthographic);
+  std::string size = "512x512";
+  std::string background = "white";
+  std::string shading = shadingName(Shading::kNormals);
+  int samples = 2;
+  int occlusionRays = 4;
+  VisibleOptions visible;
+  // Of meshes and scenes:
+  ResolutionOptions resolution;
+  SmoothingArguments smoothing;
+  VoxelizationArguments voxelization;
+  std::optional<double> weldTolerance;
+  std::optional<bool> strict;
+  SubmeshArguments submeshes;
+  std::vector<const CLI::Option*> meshOptions;  // all of these
+  std::vector<const CLI::Option*> gridOptions;  // those of .vdb files
+  CommonOptions common;
+};
+
+/// The whole text as a whole number.
+template <class Number>
+bool readNumber(std::string_view text, Number& number, int base = 10) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::pair<int, int> parseSize(const std::string& text) {
+  const std::size_t times = text.find('x');
+  int width = 0;
+  int height = 0;
+  const bool read = times != std::string::npos &&
+                    readNumber(std::string_view(text).substr(0, times), width) &&
+                    readNumber(std::string_view(text).substr(times + 1), height);
+  if (!read || width < 1 || height < 1)
+    throw UsageError("--size must be width and height in pixels, such as 640x480, not '" + text +
+                     "'");
+  return {width, height};
+}
+
+Pixel parseBackground(const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, Pixel>, 4> kNamed = {
+      {{"white", {255, 255, 255, 255}},
+       {"black", {0, 0, 0, 255}},
+       {"grey", {128, 128, 128, 255}},
+       {"transparent", {0, 0, 0, 0}}}};
+  for (const auto& [name, pixel] : kNamed)
+    if (name == text) return pixel;
+  constexpr std::size_t kDigits = 6;
+  std::uint32_t rgb = 0;
+  const bool read = text.size() == kDigits + 1 && text[0] == '#' &&
+                    readNumber(std::string_view(text).substr(1), rgb, 16);
+  if (!read)
+    throw UsageError("--background must be white, black, grey, transparent or #rrggbb, not '" +
+                     text + "'");
+  const auto byte = [&](unsigned shift) { return static_cast<std::uint8_t>(rgb >> shift & 0xffU); };
+  return {byte(16), byte(8), byte(0), 255};
+}
+
+/// The value of a name, or the error that lists all of them.
+template <class Value>
+Value chosen(const char* option, const std::optional<Value>& value, const std::string& text,
+             const std::string& known) {
+  if (!value)
+    throw UsageError(std::string(option) + " must be one of " + known + ", not '" + text + "'");
+  return *value;
+}
+
+RenderOptions parse(const Options& options) {
+  if (!isStdout(options.output) && lowerExtension(options.output) != ".png")
+    throw UsageError(options.output + ": the output of vox render must end in .png");
+  RenderOptions parsed;
+  parsed.views = parseViews(options.views);
+  parsed.up = chosen("--up", namedIn(kUpAxisNames, options.up), options.up, "y, z");
+  parsed.projection = chosen("--projection", projectionNamed(options.projection),
+                             options.projection, allProjectionNames());
+  parsed.shading.shading =
+      chosen("--shading", shadingNamed(options.shading), options.shading, allShadingNames());
+  std::tie(parsed.width, parsed.height) = parseSize(options.size);
+  parsed.background = parseBackground(options.background);
+  parsed.samples = options.samples;
+  parsed.shading.occlusionRays = options.occlusionRays;
+  parsed.maxMemory = options.common.run.maxMemory;
+  parsed.threads = options.common.run.threads;
+  requireRenderable(parsed);
+  return parsed;
+}
+
+/// Refuses options that mean nothing for the kind of input.
+void refuse(const std::vector<const CLI::Option*>& given, const std::string& input,
+            const char* why) {
+  for (const CLI::Option* option : given)
+    if (option->count() > 0) throw UsageError(input + ": " + option->get_name() + why);
+}
+
+ConvertOptions parseConversion(const Options& options, Progress& progress) {
+  ConvertOptions parsed;
+  parsed.dim = options.resolution.dim;
+  parsed.voxelSize = options.resolution.voxelSize;
+  parsed.smoothing = parseSmoothing(options.smoothing);
+  parsed.until = parseUntil(options.voxelization);
+  parsed.separation = parseSeparation(options.voxelization);
+  parsed.weldTolerance = options.weldTolerance;
+  parsed.strict = options.strict;
+  parsed.surface = parseSubmeshes(options.submeshes);
+  parsed.grids = std::vector{GridKind::kMask};
+  parsed.run = options.common.run;
+  parsed.run.progress = &progress;
+  return parsed;
+}
+
+using Grids = std::vector<std::shared_ptr<openvdb::GridBase>>;
+
+Grids readGrids(const Options& options) {
+  Grids grids;
+  for (NamedGrid& named : readVdb(options.input).grids) grids.push_back(std::move(named.grid));
+  return grids;
+}
+
+/// What the progress of rendering is planned with, in the nanoseconds of the other stages.
+double workOfRendering(const RenderOptions& options) {
+  constexpr double kPerRay = 400;
+  return kPerRay * options.width * options.height * static_cast<double>(options.views.size()) *
+         options.samples * options.samples * (1 + options.shading.occlusionRays);
+}
+
+void write(const Options& options, const Image& image) {
+  if (isStdout(options.output)) return writePng(std::cout, image);
+  AtomicFile output(options.output, options.common.force);
+  writePng(output.stream(), image);
+  output.commit();
+}
+
+int run(const Options& options) {
+  RenderOptions renderOptions = parse(options);
+  const bool isVdb = lowerExtension(options.input) == ".vdb";
+  refuse(isVdb ? options.meshOptions : options.gridOptions, options.input,
+         isVdb ? " is for meshes and scenes only" : " is for .vdb files only");
+  ProgressBar bar(!options.common.quiet);
+  Progress progress(bar.callback());
+  renderOptions.progress = &progress;
+  const ConvertOptions convertOptions = parseConversion(options, progress);
+  Scene scene;
+  if (isVdb)
+    scene.files = {options.input};
+  else
+    scene = readScene(options.input);
+  requireOutput(options.output, options.common, scene);
+  Conversion conversion;
+  Image image;
+  {
+    const CancelOnSignal cancelOnSignal(progress);
+    progress.plan(workOfRendering(renderOptions));
+    if (isVdb)
+      conversion.grids = readGrids(options);
+    else
+      conversion = convert(scene, convertOptions);
+    image = render(visibleGrids(conversion.grids, options.visible), renderOptions);
+    progress.finish();
+    write(options, image);
+  }
+  bar.erase();
+  for (const std::string& warning : conversion.report.warnings)
+    say(options.common, "warning: " + warning);
+  say(options.common, options.output + ": " + std::to_string(image.width) + " x " +
+                          std::to_string(image.height) + " pixels");
+  return 0;
+}
+
+void addPictureOptions(CLI::App& command, Options& options) {
+  const auto add = [&](const char* name, auto& value, const std::string& help, const char* type) {
+    return command.add_option(name, value, help)
+        ->type_name(type)
+        ->group("Picture")
+        ->capture_default_str();
+  };
+  add("--view,--views", options.views,
+      "Where from to look: " + allViewNames() +
+          ", or azimuth and elevation in degrees (0,0 front, 90,0 right); several, with commas, "
+          "make a contact sheet, row by row",
+      "VIEW");
+  add("--up", options.up, "Axis of the world that is up: front is seen along +y (z) or -z (y)",
+      "y|z");
+  add("--projection", options.projection, "Parallel sight, or sight from a point",
+      "orthographic|perspective");
+  add("--size", options.size, "Width and height of each view, in pixels", "WxH");
+  add("--background", options.background, "white, black, grey, transparent or #rrggbb", "COLOR");
+  add("--shading", options.shading,
+      "Stored normals, and congradient where there are none (normals); normals estimated from the "
+      "voxels around (congradient); or the sides of voxels (flat). A level set has its own",
+      "WHICH");
+  add("--samples", options.samples, "N x N rays per pixel", "N")
+      ->check(CLI::Range(1, kMostSamples));
+  add("--occlusion", options.occlusionRays,
+      "Rays per sample that look for what hides the sky; 0: no ambient occlusion", "N")
+      ->check(CLI::Range(0, kMostOcclusionRays));
+}
+
+void addGridOptions(CLI::App& command, Options& options) {
+  options.gridOptions = {
+      command
+          .add_option("--grid", options.visible.grid,
+                      "Grid to show (default: mask, density, surface or any other of numbers)")
+          ->type_name("NAME")
+          ->group("OpenVDB files"),
+      command
+          .add_option_function<double>(
+              "--threshold", [&options](double value) { options.visible.threshold = value; },
+              "Fog above this density is solid (default: a tenth of the largest)")
+          ->type_name("T")
+          ->group("OpenVDB files")};
+}
+
+void addMeshOptions(CLI::App& command, Options& options) {
+  const std::size_t before = command.get_options().size();
+  addResolutionOptions(command, options.resolution);
+  addSmoothingOptions(command, options.smoothing);
+  addVoxelizationOptions(command, options.voxelization);
+  addWeldOption(command, options.weldTolerance);
+  addStrictOption(command, options.strict);
+  addSubmeshOptions(command, options.submeshes);
+  const auto all = command.get_options();
+  options.meshOptions.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
+}
+
+}  // namespace
+
+Action addRender(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("render", "Draw a .vdb file, or what a mesh or scene becomes (.png)");
+  const auto options = std::make_shared<Options>();
+  command
+      ->add_option("INPUT", options->input,
+                   "OpenVDB file (.vdb), scene (.toml) or mesh (.obj .ply .off .stl .om)")
+      ->required();
+  command->add_option("-o,--output", options->output, "PNG file to write; - for stdout")
+      ->required()
+      ->type_name("OUT.png")
+      ->group("Output");
+  addPictureOptions(*command, *options);
+  addGridOptions(*command, *options);
+  addMeshOptions(*command, *options);
+  addCommonOptions(*command, options->common);
+  return [options] { return run(*options); };
+}
+
+}  // namespace vox::app

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace vox {
+
+/// Names of the values of an enumeration, in scenes and on the command line.
+template <class Enum, std::size_t N>
+using NameTable = std::array<std::pair<Enum, std::string_view>, N>;
+
+template <class Enum, std::size_t N>
+std::string nameIn(const NameTable<Enum, N>& table, Enum value) {
+  for (const auto& [known, name] : table)
+    if (known == value) return std::string(name);
+  return {};
+}
+
+/// Value of that name, or nothing.
+template <class Enum, std::size_t N>
+std::optional<Enum> namedIn(const NameTable<Enum, N>& table, std::string_view name) {
+  for (const auto& [value, known] : table)
+    if (known == name) return value;
+  return std::nullopt;
+}
+
+/// For messages: "surface, solid".
+template <class Enum, std::size_t N>
+std::string allNamesIn(const NameTable<Enum, N>& table) {
+  std::string names;
+  for (const auto& [value, name] : table) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
+
+}  // namespace vox

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace vox {
+
+/// The voxels of a leaf, one bit each, in OpenVDB's order: word x, bit 8 y + z.
+using LeafWords = std::array<std::uint64_t, 8>;
+
+/// Switches on further voxels of a leaf.
+/// @param bits  its 8 words
+/// @return      how many were off before
+std::uint32_t mergeLeaf(std::uint64_t* bits, const LeafWords& more);
+
+}  // namespace vox

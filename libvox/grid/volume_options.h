@@ -1,0 +1,74 @@
+#pragma once
+
+#include "libvox/core/names.h"
+#include "libvox/grid/grid_kind.h"
+#include "libvox/grid/transform.h"
+
+#include <optional>
+#include <string>
+
+namespace vox {
+
+/// What of an object `density` holds.
+enum class Fill {
+  kSurface,  ///< the black voxels
+  kSolid,    ///< and what they enclose
+};
+inline constexpr NameTable<Fill, 2> kFillNames = {
+    {{Fill::kSurface, "surface"}, {Fill::kSolid, "solid"}}};
+
+/// What a component that has no inside (one with boundary, or one-sided) is to a volume.
+enum class OpenMesh {
+  kError,     ///< a reason to refuse the object
+  kSurface,   ///< a surface: `density` has its voxels, `surface` a sheet one voxel thick
+  kUnsigned,  ///< the same, but `surface` has distances without sign
+};
+inline constexpr NameTable<OpenMesh, 3> kOpenMeshNames = {{{OpenMesh::kError, "error"},
+                                                           {OpenMesh::kSurface, "surface"},
+                                                           {OpenMesh::kUnsigned, "unsigned"}}};
+
+/// How the values of a file are packed, without loss.
+enum class Compression { kBlosc, kZip, kPlain };
+inline constexpr NameTable<Compression, 3> kCompressionNames = {
+    {{Compression::kBlosc, "blosc"}, {Compression::kZip, "zip"}, {Compression::kPlain, "none"}}};
+
+/// The program that a file is for.
+enum class Target {
+  kBlender,    ///< z is up
+  kBlender34,  ///< besides, moved by half a voxel: Blender 3.4 draws voxel i from i to i + 1
+  kHoudini,    ///< y is up; names of grids as usual there
+};
+inline constexpr NameTable<Target, 3> kTargetNames = {{{Target::kBlender, "blender"},
+                                                       {Target::kBlender34, "blender-3.4"},
+                                                       {Target::kHoudini, "houdini"}}};
+
+/// The axis of the input that points up.
+enum class UpAxis { kY, kZ };
+inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}}};
+
+/// How to make volumes, as far as somebody said.
+struct VolumeOptions {
+  std::optional<Fill> fill;          ///< default: kSurface
+  std::optional<double> gain;        ///< value of `density` at its voxels; default 1
+  std::optional<OpenMesh> openMesh;  ///< default: kSurface
+  std::optional<double> band;        ///< half width of `surface` in voxels; default 3
+  std::optional<double> tolerance;   ///< of the polygons it is made from, in voxels; default 0.05
+  std::optional<bool> half;          ///< default: false: values are floats of 32 bits
+  std::optional<Compression> compression;  ///< default: kBlosc, if OpenVDB has it
+  std::optional<Target> target;            ///< default: kBlender
+  std::optional<UpAxis> up;                ///< default: up as the target has it, so no turning
+};
+
+/// What `first` says, and `second` where it is silent.
+VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second);
+
+/// Name of a grid in a file.
+std::string gridNameFor(GridKind kind, const VolumeOptions& options);
+
+/// How an input is turned about the x axis on its way into the grid.
+Turn turnOf(const VolumeOptions& options);
+
+/// @throws UsageError  a number is out of range
+void requireValid(const VolumeOptions& options);
+
+}  // namespace vox

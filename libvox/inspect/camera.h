@@ -1,0 +1,92 @@
+#pragma once
+
+#include "libvox/core/types.h"
+#include "libvox/grid/volume_options.h"
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vox {
+
+/// Where from to look at a model, in degrees.
+struct View {
+  double azimuth = 0;    ///< around the up axis: 0 front, 90 right, 180 back, 270 left
+  double elevation = 0;  ///< above the horizon, -90 .. 90
+  bool operator==(const View&) const = default;
+};
+
+/// A view by its name ("front", "iso").
+std::optional<View> viewNamed(std::string_view name);
+/// For messages: "front, back, left, right, top, bottom, iso".
+std::string allViewNames();
+
+/// Views in a list with commas, each a name or azimuth and elevation: "front,iso,30,-15".
+/// @throws UsageError
+std::vector<View> parseViews(const std::string& text);
+
+// The axis of the world that is up in pictures. Z: the front is seen along +y, x to the right, as
+// in Blender. Y: along -z, x to the right, as mesh files of other programs often have it.
+
+enum class Projection { kOrthographic, kPerspective };
+/// "orthographic"
+std::string projectionName(Projection projection);
+/// Value of that name, or nothing.
+std::optional<Projection> projectionNamed(std::string_view name);
+/// For messages: "orthographic, perspective".
+std::string allProjectionNames();
+
+/// A line of sight in world space.
+struct Sight {
+  Vec3d origin;
+  Vec3d direction;  ///< unit
+};
+
+/// Unit vectors to the right, upward and into the picture.
+struct ViewAxes {
+  Vec3d right, up, forward;
+};
+ViewAxes axesOf(const View& view, UpAxis up);
+
+struct Camera {
+  Projection projection = Projection::kOrthographic;
+  ViewAxes axes;
+  Vec3d origin;       ///< the eye, or the middle of the plane that parallel rays start from
+  double halfWidth;   ///< of the picture: world units, or tangents for a perspective
+  double halfHeight;  ///< the same
+
+  /// @param x, y  0 .. 1 from the upper left corner of the picture
+  Sight through(double x, double y) const;
+};
+
+/// Finds the camera that shows all points as large as they fit, in the middle, with a margin.
+class Framing {
+ public:
+  /// @param aspect  width of the picture / its height
+  Framing(const View& view, UpAxis up, Projection projection, double aspect);
+
+  void add(const Vec3d& point);
+
+  /// Half the height that a parallel projection needs; 0 for a perspective. World units.
+  double halfHeight() const;
+
+  /// @param leastHalfHeight  shows at least so much: for several views at one scale
+  Camera camera(double leastHalfHeight = 0) const;
+
+ private:
+  Camera orthographic(double leastHalfHeight) const;
+  Camera perspective() const;
+
+  ViewAxes axes_;
+  Projection projection_;
+  double aspect_;
+  // The largest of right, left, up and down of all points, reduced by what a perspective allows for
+  // their depth; and their smallest depth.
+  std::array<double, 4> most_;
+  double nearest_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace vox

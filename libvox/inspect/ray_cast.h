@@ -1,0 +1,46 @@
+#pragma once
+
+#include "libvox/core/types.h"
+
+#include <openvdb/math/Ray.h>
+#include <openvdb/openvdb.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace vox {
+
+/// A ray in index space; times are multiples of its direction.
+using IndexRay = openvdb::math::Ray<double>;
+
+struct RayHit {
+  double time = 0;
+  openvdb::Coord voxel;  ///< that was hit, or that holds the point that was
+  Vec3d face;  ///< unit outward normal of what was hit there, index space: of the side of a
+               ///< voxel, or of an isosurface
+};
+
+/// A surface that rays can hit. Not thread-safe: a task makes a copy.
+class RayCaster {
+ public:
+  virtual ~RayCaster() = default;
+
+  /// The first hit between the times of the ray, which must be positive.
+  virtual std::optional<RayHit> firstHit(const IndexRay& ray) = 0;
+
+  /// Cheap beside the work of a task.
+  virtual std::unique_ptr<RayCaster> copy() const = 0;
+};
+
+/// Active voxels as solid unit cubes around their index, through OpenVDB's digital differential
+/// analyzers level by level: empty nodes are passed in one step.
+/// @param voxels  must outlive the caster
+std::unique_ptr<RayCaster> voxelCaster(const openvdb::MaskTree& voxels);
+
+/// The zero isosurface of a level set, within the cell to linear precision.
+/// @param levelSet  must outlive the caster
+/// @throws InputError  its voxels are no cubes, or its narrow band does not hold 0
+std::unique_ptr<RayCaster> levelSetCaster(const openvdb::FloatGrid& levelSet);
+
+}  // namespace vox

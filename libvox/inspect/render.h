@@ -1,0 +1,46 @@
+#pragma once
+
+#include "libvox/inspect/camera.h"
+#include "libvox/inspect/shading.h"
+#include "libvox/inspect/visible.h"
+#include "libvox/io/image.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace vox {
+
+class Progress;
+
+struct RenderOptions {
+  std::vector<View> views = {*viewNamed("iso")};  ///< several make a contact sheet
+  UpAxis up = UpAxis::kZ;
+  Projection projection = Projection::kOrthographic;
+  int width = 512;   ///< of a view, pixels
+  int height = 512;  ///< the same
+  int samples = 2;   ///< squared: rays per pixel
+  ShadingOptions shading;
+  Pixel background = {255, 255, 255, 255};  ///< its coverage is 0 or 255
+  std::uint64_t maxMemory = 0;   ///< bytes for the image; 0: three quarters of what is free
+  int threads = 0;               ///< 0: all processors
+  Progress* progress = nullptr;  ///< told how far the run is; may cancel it
+};
+
+inline constexpr int kMostPixelsAcross = 16384;  ///< of a picture
+inline constexpr int kMostSamples = 16;
+inline constexpr int kMostOcclusionRays = 256;
+
+/// Checks before the work starts what render would refuse.
+/// @throws UsageError  an option is out of range
+void requireRenderable(const RenderOptions& options);
+
+/// Pictures of what there is to see: every view framed to fill its part of the image, all at one
+/// scale if the projection is orthographic; row by row, as near to a square as it gets. The image
+/// does not depend on the number of threads.
+///
+/// @throws UsageError  as requireRenderable
+/// @throws LimitError  the image does not fit into memory
+/// @throws Cancelled   options.progress says so; it is told a stage "render"
+Image render(const VisibleGrids& visible, const RenderOptions& options);
+
+}  // namespace vox

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "libvox/core/types.h"
+#include "libvox/inspect/camera.h"
+#include "libvox/inspect/ray_cast.h"
+#include "libvox/inspect/visible.h"
+#include "libvox/volume/shading_normals.h"
+
+#include <openvdb/openvdb.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace vox {
+
+/// Which normals are shaded. A level set always shows those of its isosurface.
+enum class Shading {
+  kCongradient,  ///< estimated from the voxels around
+  kNormals,      ///< the stored ones; congradient where there is none
+  kFlat,         ///< the sides of voxels, to see them
+};
+/// "congradient"
+std::string shadingName(Shading shading);
+/// Value of that name, or nothing.
+std::optional<Shading> shadingNamed(std::string_view name);
+/// For messages: "congradient, normals, flat".
+std::string allShadingNames();
+
+/// Linear red, green and blue.
+using Light = Eigen::Vector3d;
+
+struct ShadingOptions {
+  Shading shading = Shading::kNormals;
+  int occlusionRays = 0;  ///< per sample, for ambient occlusion; 0: none
+};
+
+/// Colours of points on a surface in sight of a camera: diffuse reflection of a lamp above the left
+/// shoulder, a weak one from the right, and of a bright sky dimmed where the surface itself is in
+/// its way. Not thread-safe; make one per task.
+class Shader {
+ public:
+  Shader(const VisibleGrids& visible, const RayCaster& surface, const ViewAxes& axes,
+         const ShadingOptions& options);
+
+  /// Light reflected along a line of sight; nothing where it misses the surface.
+  /// @param sample, samples  which of so many at one pixel: they share the occlusion rays
+  std::optional<Light> look(const Sight& sight, int sample, int samples);
+
+ private:
+  using Vectors = openvdb::tree::ValueAccessor<const openvdb::Vec3STree>;
+
+  /// Normals and directions in index space.
+  Vec3d normalAt(const RayHit& hit, const Vec3d& direction);
+  std::optional<Vec3d> storedNormal(const openvdb::Coord& voxel);
+  Light colorAt(const openvdb::Coord& voxel);
+  /// The part of the sky that is not hidden, 0 .. 1.
+  double skyAt(const IndexRay& ray, const RayHit& hit, const Vec3d& normal, int sample,
+               int samples);
+
+  ShadingOptions options_;
+  ViewAxes axes_;
+  std::unique_ptr<RayCaster> surface_;
+  openvdb::math::MapBase::ConstPtr map_;
+  std::optional<CongradientNormals> congradient_;
+  std::optional<Vectors> normals_;
+  std::optional<Vectors> colors_;
+  double occlusionReach_;  // voxels
+};
+
+}  // namespace vox

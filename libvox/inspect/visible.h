@@ -1,0 +1,38 @@
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vox {
+
+struct VisibleOptions {
+  std::string grid;  ///< that is shown; empty: chosen as told below
+  std::optional<double>
+      threshold;  ///< fog above it is solid; default: a tenth of the largest value
+};
+
+/// What there is to see in the grids of a file.
+struct VisibleGrids {
+  openvdb::MaskTree::ConstPtr voxels;          ///< solid ones; or
+  openvdb::FloatGrid::ConstPtr levelSet;       ///< a surface within voxels, which is nothing then
+  openvdb::Vec3SGrid::ConstPtr normals;        ///< world space; nothing if there are none
+  openvdb::Vec3SGrid::ConstPtr colors;         ///< linear, 0 .. 1; nothing if there are none
+  openvdb::math::Transform::ConstPtr toWorld;  ///< of what is shown; linear
+  std::vector<openvdb::CoordBBox> boxes;  ///< of the voxels that are shown, or near the surface
+};
+
+/// Chooses what to show: the grid of the given name, or else the first that has voxels of `mask`,
+/// `density`, `surface` and then any other of numbers. A level set shows its zero isosurface; of
+/// anything else, active voxels above the threshold are solid. Normals are those of `normal` or
+/// `N`, colours those of `color` or `Cd`, if their transform is that of what is shown.
+///
+/// @throws InputError  nothing can be shown: the message says why
+/// @throws LimitError  voxels are further than 2^30 from the origin
+VisibleGrids visibleGrids(std::span<const openvdb::GridBase::Ptr> grids,
+                          const VisibleOptions& options);
+
+}  // namespace vox

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "libvox/io/image.h"
+
+#include <iosfwd>
+
+namespace vox {
+
+/// Writes a PNG of the smallest kind that loses nothing: grey or colour, with or without coverage,
+/// 8 bits each. Equal images give equal bytes.
+/// @throws IoError  the stream fails
+void writePng(std::ostream& stream, const Image& image);
+
+}  // namespace vox

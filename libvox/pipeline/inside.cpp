@@ -1,0 +1,135 @@
+// What is inside the objects of a scene.
+
+#include "libvox/pipeline/inside.h"
+
+#include "libvox/core/error.h"
+#include "libvox/pipeline/components.h"
+#include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/limit_polygons.h"
+#include "libvox/pipeline/refine.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "libvox/volume/fill.h"
+#include "libvox/volume/winding.h"
+#include "libvox/voxelize/triangulate.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <sstream>
+#include <utility>
+
+namespace vox {
+namespace {
+
+/// "jack: 2 of its 3 components are open, the first of 42 faces at (1, 0, 0)".
+std::string describeOpen(const PreparedSurface& surface,
+                         const std::vector<MeshComponent>& components,
+                         const GridTransform& transform) {
+  const auto hasNoInside = [](const MeshComponent& c) {
+    return c.side == MeshComponent::Side::kNoInside;
+  };
+  const auto count = std::count_if(components.begin(), components.end(), hasNoInside);
+  if (count == 0) return {};
+  const MeshComponent& first = *std::find_if(components.begin(), components.end(), hasNoInside);
+  const bool open = first.boundaryCorner != kNone;
+  const PolygonMesh& mesh = surface.base.mesh;
+  const Index corner = open ? first.boundaryCorner : mesh.faceOffsets[first.faces[0]];
+  const Vec3d at = transform.toWorld(mesh.points[mesh.faceVertices[corner]]);
+  std::ostringstream text;
+  text << surface.name << ": " << count << " of its " << components.size() << " component"
+       << (components.size() == 1 ? "" : "s") << (count == 1 ? " has" : " have")
+       << " no inside; the first, of " << first.faces.size() << " face"
+       << (first.faces.size() == 1 ? "" : "s") << ", is " << (open ? "open" : "one-sided")
+       << " at (" << at.x() << ", " << at.y() << ", " << at.z() << ")";
+  return text.str();
+}
+
+std::vector<Index> facesOf(const std::vector<MeshComponent>& components, MeshComponent::Side side) {
+  std::vector<Index> faces;
+  for (const MeshComponent& component : components)
+    if (component.side == side)
+      faces.insert(faces.end(), component.faces.begin(), component.faces.end());
+  return faces;
+}
+
+/// The polygons of a level, as they are voxelized.
+PolygonMesh triangulated(const PolygonMesh& mesh) {
+  PolygonMesh cut;
+  cut.points = mesh.points;
+  TriangulationReport report;
+  std::vector<Vec3d> corners;
+  std::vector<std::array<Index, 3>> triangles;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto face = mesh.face(f);
+    corners.clear();
+    triangles.clear();
+    for (const Index v : face) corners.push_back(mesh.points[v]);
+    triangulate(corners, triangles, report);
+    for (const auto& [i, j, k] : triangles) cut.addFace(std::array{face[i], face[j], face[k]});
+  }
+  return cut;
+}
+
+bool hasCavity(const std::vector<MeshComponent>& components) {
+  return std::any_of(components.begin(), components.end(),
+                     [](const MeshComponent& c) { return c.side == MeshComponent::Side::kIn; });
+}
+
+}  // namespace
+
+PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>& faces,
+                       double tolerance, const MemoryBudget& budget, const Progress& progress) {
+  if (faces.empty()) return {};
+  SubdivisionLevel base;
+  if (faces.size() == surface.base.mesh.faceCount()) {
+    base = surface.base;
+  } else {
+    const bool extends = surface.base.boundary == BoundaryStage::kExtend;
+    base = baseLevel(submeshOf(surface.base.mesh, faces),
+                     extends ? BoundaryRule::kExtend : BoundaryRule::kFree);
+  }
+  const StopRule& until = surface.way.until;
+  const bool ofLevel = surface.way.polygons && until.levels && until == StopRule{until.levels};
+  if (!ofLevel) return limitPolygons(std::move(base), tolerance, budget, progress);
+  Progress unwatched;
+  return triangulated(subdividedWithin(budget, std::move(base), *until.levels, unwatched).mesh);
+}
+
+void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
+                   const GridTransform& transform, std::vector<std::string>& warnings) {
+  const std::string open = describeOpen(surface, componentsOf(surface.base), transform);
+  if (open.empty()) return;
+  if (openMesh == OpenMesh::kError)
+    throw MeshError(open + "; close it, or use --open-mesh " + allNamesIn(kOpenMeshNames));
+  warnings.push_back(open);
+}
+
+openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& black,
+                               std::span<const PreparedSurface> surfaces,
+                               const MemoryBudget& budget, const Progress& progress) {
+  std::vector<std::vector<MeshComponent>> components;
+  for (const PreparedSurface& surface : surfaces) components.push_back(componentsOf(surface.base));
+  constexpr double kTolerance = 0.25;
+  AreCavities areCavities;
+  const auto areInCavities = [&](std::span<const openvdb::Coord> voxels) {
+    std::vector<int> inward(voxels.size(), 0);
+    std::vector<int> outward(voxels.size(), 0);
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+      for (const auto& [side, sum] : {std::pair(MeshComponent::Side::kIn, &inward),
+                                      std::pair(MeshComponent::Side::kOut, &outward)}) {
+        const PolygonMesh polygons =
+            polygonsOf(surfaces[i], facesOf(components[i], side), kTolerance, budget, progress);
+        const std::vector<int> windings = windingNumbers(polygons, voxels);
+        std::transform(sum->begin(), sum->end(), windings.begin(), sum->begin(), std::plus<>());
+      }
+    std::vector<bool> cavities(voxels.size());
+    for (std::size_t v = 0; v < voxels.size(); ++v)
+      cavities[v] = inward[v] < 0 && outward[v] + inward[v] <= 0;
+    return cavities;
+  };
+  if (std::any_of(components.begin(), components.end(), hasCavity)) areCavities = areInCavities;
+  progress.check();
+  return filled(black, areCavities);
+}
+
+}  // namespace vox

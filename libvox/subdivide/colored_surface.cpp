@@ -1,0 +1,270 @@
+// Positions and colours refined together, by whole levels of small pieces.
+
+#include "libvox/subdivide/colored_surface.h"
+
+#include "libvox/subdivide/doo_sabin.h"
+#include "libvox/subdivide/stop.h"
+#include "libvox/subdivide/strip.h"
+#include "libvox/subdivide/vertex_patch.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace vox {
+namespace {
+
+/// Faces cut out of a level in the order they had, with all that belongs to them. Keeping the order
+/// keeps that of the corners around each vertex, and so the bits of every sum below.
+class Cutter {
+ public:
+  Cutter(const SubdivisionLevel& level, std::vector<Index>& slots, std::vector<Index>& points)
+      : from_(level), slots_(slots), points_(points) {
+    slots_.resize(level.mesh.faceCount(), kNone);
+    points_.resize(level.mesh.pointCount(), kNone);
+  }
+
+  /// Leaves the tables as they were.
+  SubdivisionLevel cut(std::span<const Index> faces) {
+    SubdivisionLevel piece;
+    piece.boundary = from_.boundary;
+    for (const Index f : faces) {
+      slots_[f] = piece.mesh.faceCount();
+      for (const Index v : from_.mesh.face(f)) addCorner(v, piece);
+      piece.mesh.faceOffsets.push_back(piece.mesh.cornerCount());
+    }
+    for (const Index f : faces) addAdjacency(f, piece);
+    for (const Index f : faces) {
+      slots_[f] = kNone;
+      for (const Index v : from_.mesh.face(f)) points_[v] = kNone;
+    }
+    return piece;
+  }
+
+  /// Per point of the last piece: which it was.
+  const std::vector<Index>& pointOrigin() const { return pointOrigin_; }
+
+ private:
+  void addCorner(Index v, SubdivisionLevel& piece) {
+    if (points_[v] == kNone) {
+      points_[v] = piece.mesh.pointCount();
+      piece.mesh.points.push_back(from_.mesh.points[v]);
+      pointOrigin_.push_back(v);
+    }
+    piece.mesh.faceVertices.push_back(points_[v]);
+  }
+
+  void addAdjacency(Index f, SubdivisionLevel& piece) const {
+    for (Index c = from_.mesh.faceOffsets[f]; c < from_.mesh.faceOffsets[f + 1]; ++c) {
+      const Index twin = from_.adjacency.twin[c];
+      const Index neighbour = twin == kNone ? kNone : from_.adjacency.cornerFace[twin];
+      const Index slot = neighbour == kNone ? kNone : slots_[neighbour];
+      piece.adjacency.twin.push_back(slot == kNone ? kNone
+                                                   : piece.mesh.faceOffsets[slot] + twin -
+                                                         from_.mesh.faceOffsets[neighbour]);
+      piece.adjacency.cornerFace.push_back(slots_[f]);
+    }
+  }
+
+  const SubdivisionLevel& from_;
+  std::vector<Index>& slots_;
+  std::vector<Index>& points_;
+  std::vector<Index> pointOrigin_;
+};
+
+/// How many vertices a regular patch is sampled with along u and v, so that they stand half a voxel
+/// apart at most. Unlike faces of vertex conversion (stop.h) they need not be small all round,
+/// which spares needles most of theirs.
+std::pair<std::int64_t, std::int64_t> samplesOf(const Patch& patch) {
+  constexpr double kMostStep = 0.5;
+  const auto& p = patch.points;
+  double u = 0;
+  double v = 0;
+  for (std::size_t a = 0; a < 2; ++a)
+    for (std::size_t b = 0; b < 3; ++b) {
+      u = std::max(u, (p[a + 1][b] - p[a][b]).cwiseAbs().maxCoeff());
+      v = std::max(v, (p[b][a + 1] - p[b][a]).cwiseAbs().maxCoeff());
+    }
+  const auto halvings = [](double step) {
+    std::int64_t n = 1;
+    while (step > kMostStep * static_cast<double>(n)) n *= 2;
+    return n;
+  };
+  return {halvings(u), halvings(v)};
+}
+
+/// A piece of a level >= 1: gives away what is fine enough or regular, and knows what is left.
+class Piece {
+ public:
+  /// @param owned  per point: whether it is to be emitted
+  Piece(ColoredLevel colored, std::vector<std::uint8_t> owned, ColoredSink& sink)
+      : colored_(std::move(colored)), owned_(std::move(owned)), sink_(&sink) {}
+
+  /// @return whether any vertex is left
+  bool emit() {
+    const PolygonMesh& mesh = colored_.level.mesh;
+    inside_.assign(mesh.faceCount(), 0);
+    measureFaces();
+    std::vector<std::uint8_t> seen(mesh.pointCount(), 0);
+    bool left = false;
+    for (Index c = 0; c < mesh.cornerCount(); ++c) {
+      const Index v = mesh.faceVertices[c];
+      if (owned_[v] == 0 || std::exchange(seen[v], 1) != 0) continue;
+      const OneRing ring = oneRing(mesh, colored_.level.adjacency, c);
+      owned_[v] = emitVertex(v, ring) ? 0 : 1;
+      if (owned_[v] == 0) continue;
+      left = true;
+      for (const Index k : ring.corners) addNeighbourhood(colored_.level.adjacency.cornerFace[k]);
+    }
+    return left;
+  }
+
+  /// What is left, one level down.
+  Piece next() {
+    std::vector<Index> faces;
+    for (Index f = 0; f < inside_.size(); ++f)
+      if (inside_[f] != 0) faces.push_back(f);
+    std::vector<Index> slots, points;
+    Cutter cutter(colored_.level, slots, points);
+    ColoredLevel piece{cutter.cut(faces), {}};
+    std::vector<std::uint8_t> ownedPoints;
+    for (const Index v : cutter.pointOrigin()) {
+      piece.colors.push_back(colored_.colors[v]);
+      ownedPoints.push_back(owned_[v]);
+    }
+    std::vector<std::uint8_t> owned;
+    for (const Index v : piece.level.mesh.faceVertices) owned.push_back(ownedPoints[v]);
+    return {nextColoredLevel(std::move(piece)), std::move(owned), *sink_};
+  }
+
+ private:
+  void measureFaces() {
+    diameters_.clear();
+    std::vector<Vec3d> points;
+    for (Index f = 0; f < colored_.level.mesh.faceCount(); ++f) {
+      points.clear();
+      for (const Index v : colored_.level.mesh.face(f))
+        points.push_back(colored_.level.mesh.points[v]);
+      diameters_.push_back(diameter(points));
+    }
+  }
+
+  bool emitVertex(Index v, const OneRing& ring) {
+    const PolygonMesh& mesh = colored_.level.mesh;
+    double largest = 0;
+    for (const Index c : ring.corners)
+      largest = std::max(largest, diameters_[colored_.level.adjacency.cornerFace[c]]);
+    if (largest <= kVertexConversionSpan) {
+      sink_->point(mesh.points[v], colored_.colors[v]);
+      return true;
+    }
+    if (!ring.closed) return false;
+    const auto position = patchAround(colored_.level, ring, mesh.points);
+    if (!position) return false;
+    const auto [rows, columns] = samplesOf(*position);
+    sink_->patch(*position, *patchAround(colored_.level, ring, colored_.colors), rows, columns);
+    return true;
+  }
+
+  /// A face around a vertex that is left, and all that share a vertex with it: one level down the
+  /// faces around its children are complete, and so are their neighbours.
+  void addNeighbourhood(Index f) {
+    if ((inside_[f] & kExpanded) != 0) return;
+    inside_[f] |= kExpanded;
+    const SubdivisionLevel& level = colored_.level;
+    for (Index c = level.mesh.faceOffsets[f]; c < level.mesh.faceOffsets[f + 1]; ++c)
+      for (const Index k : oneRing(level.mesh, level.adjacency, c).corners)
+        inside_[level.adjacency.cornerFace[k]] |= kInside;
+  }
+
+  static constexpr std::uint8_t kInside = 1;
+  static constexpr std::uint8_t kExpanded = 2;
+  ColoredLevel colored_;
+  std::vector<std::uint8_t> owned_;
+  std::vector<std::uint8_t> inside_;  // per face
+  std::vector<double> diameters_;     // per face, L-inf
+  ColoredSink* sink_;
+};
+
+}  // namespace
+
+std::vector<Vec3d> cornerColors(const PolygonMesh& mesh) {
+  std::vector<Vec3d> colors;
+  if (!mesh.pointColors.empty()) {
+    for (const Index v : mesh.faceVertices) colors.push_back(mesh.pointColors[v].cast<double>());
+  } else if (!mesh.faceColors.empty()) {
+    for (Index f = 0; f < mesh.faceCount(); ++f)
+      colors.insert(colors.end(), mesh.faceSize(f), mesh.faceColors[f].cast<double>());
+  }
+  return colors;
+}
+
+ColoredLevel firstColoredLevel(const ColoredLevel& base) {
+  SubdivisionLevel corners{{}, base.level.adjacency, base.level.boundary};
+  corners.mesh.points = base.colors;
+  corners.mesh.faceOffsets = base.level.mesh.faceOffsets;
+  corners.mesh.faceVertices.resize(base.colors.size());  // each corner a point of its own
+  std::iota(corners.mesh.faceVertices.begin(), corners.mesh.faceVertices.end(), 0);
+  return {nextLevel(base.level, imageVertices(base.level)), imageVertices(corners)};
+}
+
+ColoredLevel nextColoredLevel(ColoredLevel level) {
+  std::vector<Vec3d> positions = imageVertices(level.level);
+  std::swap(level.level.mesh.points, level.colors);
+  std::vector<Vec3d> colors = imageVertices(level.level);
+  return {nextLevel(level.level, std::move(positions)), std::move(colors)};
+}
+
+ColoredSurface::ColoredSurface(const SubdivisionLevel& base, std::span<const Vec3d> colors)
+    : base_(base),
+      colors_(colors),
+      inside_(base.mesh.faceCount(), 0),
+      seen_(base.mesh.pointCount(), 0) {}
+
+void ColoredSurface::addRing(Index corner) {
+  if (std::exchange(seen_[base_.mesh.faceVertices[corner]], 1) != 0) return;
+  for (const Index k : oneRing(base_.mesh, base_.adjacency, corner).corners) {
+    const Index f = base_.adjacency.cornerFace[k];
+    if (std::exchange(inside_[f], 1) == 0) faces_.push_back(f);
+  }
+}
+
+ColoredLevel ColoredSurface::cutOut(std::span<const Index> faces) {
+  faces_.clear();
+  for (const Index f : faces)
+    for (Index c = base_.mesh.faceOffsets[f]; c < base_.mesh.faceOffsets[f + 1]; ++c) addRing(c);
+  for (const Index f : faces_) inside_[f] = 0;
+  for (const Index f : faces)
+    for (const Index v : base_.mesh.face(f)) seen_[v] = 0;
+  std::sort(faces_.begin(), faces_.end());
+  ColoredLevel piece{Cutter(base_, slots_, points_).cut(faces_), {}};
+  for (const Index f : faces_)
+    for (Index c = base_.mesh.faceOffsets[f]; c < base_.mesh.faceOffsets[f + 1]; ++c)
+      piece.colors.push_back(colors_[c]);
+  return piece;
+}
+
+void ColoredSurface::emit(std::span<const Index> faces, ColoredSink& sink) {
+  const ColoredLevel base = cutOut(faces);
+  for (const Index f : faces) inside_[f] = 1;
+  std::vector<std::uint8_t> owned;
+  for (const Index f : base.level.adjacency.cornerFace) owned.push_back(inside_[faces_[f]]);
+  if (base.level.boundary == BoundaryStage::kExtend)
+    for (const Index c : boundaryCorners(base.level.adjacency))
+      owned.insert(owned.end(), 2, owned[c]);
+  for (const Index f : faces) inside_[f] = 0;
+
+  Piece piece(firstColoredLevel(base), std::move(owned), sink);
+  while (piece.emit()) piece = piece.next();
+}
+
+Index coloredSubmeshFaces(const SubdivisionLevel& base) {
+  std::vector<Index> valences(base.mesh.pointCount(), 0);
+  for (const Index v : base.mesh.faceVertices) ++valences[v];
+  constexpr Index kLeast = 256;
+  Index most = std::max(kLeast, *std::max_element(valences.begin(), valences.end()));
+  for (Index f = 0; f < base.mesh.faceCount(); ++f) most = std::max(most, base.mesh.faceSize(f));
+  return most;
+}
+
+}  // namespace vox

@@ -1,0 +1,53 @@
+// Size, flatness and direction of a face.
+
+#include "libvox/subdivide/face_shape.h"
+
+#include "libvox/subdivide/stop.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vox {
+namespace {
+
+/// Of the real corners and the two points where the mirror cuts the polygon.
+double realDiameter(std::span<const Vec3d> corners, std::size_t real) {
+  Vec3d low = (corners.front() + corners.back()) / 2.0;
+  Vec3d high = low;
+  const auto add = [&](const Vec3d& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  };
+  if (real < corners.size()) add((corners[real - 1] + corners[real]) / 2.0);
+  for (const Vec3d& corner : corners.first(real)) add(corner);
+  return (high - low).maxCoeff();
+}
+
+}  // namespace
+
+FaceShape shapeOf(std::span<const Vec3d> corners, std::size_t real) {
+  FaceShape shape;
+  shape.diameter = real < corners.size() ? realDiameter(corners, real) : diameter(corners);
+  Vec3d twiceArea = Vec3d::Zero();
+  Vec3d centroid = corners[0];
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    centroid += corners[i];
+    twiceArea += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+  }
+  centroid /= static_cast<double>(corners.size());
+  shape.normal = twiceArea.stableNormalized();
+  if (!(shape.normal.squaredNorm() > 0.5)) shape.normal.setZero();
+  for (const Vec3d& corner : corners)
+    shape.height = std::max(shape.height, std::abs(shape.normal.dot(corner - centroid)));
+  return shape;
+}
+
+double angleBetween(const Vec3d& a, const Vec3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * (180 / std::numbers::pi) *
+         (a.isZero() || b.isZero() ? 0 : 1);
+}
+
+}  // namespace vox

@@ -1,0 +1,293 @@
+// From the faces of a submesh to polygons.
+
+#include "libvox/subdivide/local_polygons.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace vox {
+namespace {
+
+/// Arrays of more vertices leave as tiles.
+constexpr int kMostLog2OfPiece = 12;
+
+SideRow sideOfNext(const VertexArray& array) {
+  return {array.depth().v, [&array](std::int64_t first, std::span<Vec3d> points) {
+            array.alongV(array.sizeU() - 1, first, points);
+          }};
+}
+SideRow sideOfPrevious(const VertexArray& array) {
+  return {array.depth().u, [&array](std::int64_t first, std::span<Vec3d> points) {
+            array.alongU(array.sizeV() - 1, first, points);
+          }};
+}
+SideRow sideOfR(const VertexArray& array) {
+  return {array.depth().u, [&array](std::int64_t first, std::span<Vec3d> points) {
+            array.alongU(0, first, points);
+          }};
+}
+SideRow sideOfL(const VertexArray& array) {
+  return {array.depth().v, [&array](std::int64_t first, std::span<Vec3d> points) {
+            array.alongV(0, first, points);
+          }};
+}
+
+Vec3d onCurve(const CurvePoints& curve, std::int64_t j, std::int64_t n) {
+  return PatchWeights(j, n)(curve[0], curve[1], curve[2]);
+}
+
+/// Points of a boundary, in its direction or against it.
+SideRow boundaryRow(const CurvePoints& curve, int log2Size, bool forward) {
+  return {log2Size, [curve, log2Size, forward](std::int64_t first, std::span<Vec3d> points) {
+            const std::int64_t n = std::int64_t{1} << log2Size;
+            for (Vec3d& point : points) {
+              point = onCurve(curve, forward ? first : n - 1 - first, n);
+              ++first;
+            }
+          }};
+}
+
+}  // namespace
+
+void LocalPolygons::findDepths(std::span<const Index> faces, const DepthRule& rule,
+                               std::span<VertexDepth> depths) {
+  vertices_.set(faces);
+  const PolygonMesh& mesh = vertices_.images().base().mesh;
+  Index slot = 0;
+  for (const Index f : faces) {
+    const Index size = mesh.faceSize(f);
+    Corner c{slot, 0, size, mesh.faceOffsets[f]};
+    for (Index i = 0; i < size; ++i, c = c.next()) {
+      const LevelOneVertex vertex = vertices_.at(c);
+      const BoundaryCurves curves = vertices_.curvesAt(c);
+      if (vertex.regular) {
+        depths[c.number] = rule.of(vertex, nullptr, curves);
+        continue;
+      }
+      const VertexFaces around = vertices_.facesAt(c);
+      depths[c.number] = rule.of(vertex, &around, curves);
+    }
+    slot += size;
+  }
+}
+
+void LocalPolygons::emit(std::span<const Index> faces, std::span<const VertexDepth> depths,
+                         const DepthRule* rule, PolygonSink& sink) {
+  vertices_.set(faces);
+  rule_ = rule;
+  depths_ = depths;
+  const PolygonMesh& mesh = vertices_.images().base().mesh;
+  PolygonPieces pieces(sink);
+  Index slot = 0;
+  for (const Index f : faces) {
+    emitFace({slot, 0, mesh.faceSize(f), mesh.faceOffsets[f]}, pieces, sink);
+    slot += mesh.faceSize(f);
+  }
+  pieces.flush();
+}
+
+void LocalPolygons::setArray(const Corner& corner, VertexArray& array, bool& whole) {
+  const LevelOneVertex vertex = vertices_.at(corner);
+  array.set(vertex, depths_[corner.number]);
+  whole = vertex.whole();
+}
+
+void LocalPolygons::emitFace(const Corner& first, PolygonPieces& pieces, PolygonSink& sink) {
+  polygon_.clear();
+  bool whole = false;
+  setArray(first, next_, whole);
+  Corner c = first;
+  for (Index i = 0; i < first.size; ++i, c = c.next()) {
+    std::swap(here_, next_);
+    emitArray(here_, whole, pieces, sink);
+    polygon_.push_back(here_.cornerF());
+    setArray(c.next(), next_, whole);
+    const bool interior = !vertices_.isBoundary(c);
+    if (interior || vertices_.images().extends())
+      stitch(sideOfNext(here_), sideOfPrevious(next_), pieces);
+    if (interior)
+      emitEdge(c, here_, next_, pieces);
+    else if (vertices_.images().extends())
+      emitBoundaryEdge(c, here_, next_, pieces);
+    if (vertices_.images().placeInStar(c.slot()) == 0 && vertices_.hasK(c.slot()))
+      emitStar(c, pieces);
+  }
+  pieces.addPolygon(polygon_);
+}
+
+/// The faces within an array; where faces are missing around its vertex there are none.
+void LocalPolygons::emitArray(const VertexArray& array, bool whole, PolygonPieces& pieces,
+                              PolygonSink& sink) {
+  if (!whole || array.depth().u == 0 || array.depth().v == 0) return;
+  if (array.blocks().size() > 1 && emitBlocks(array, pieces, sink)) return;
+  emitGrid(array, pieces, sink);
+}
+
+/// The faces between all vertices of an array.
+void LocalPolygons::emitGrid(const VertexArray& array, PolygonPieces& pieces, PolygonSink& sink) {
+  if (array.depth().u + array.depth().v > kMostLog2OfPiece) {
+    sink.tiles(ArrayTiles(std::make_shared<const VertexArray>(array)));
+    return;
+  }
+  const auto width = static_cast<Index>(array.sizeV());
+  star_.resize(width);
+  for (std::int64_t i = 0; i < array.sizeU(); ++i) {
+    array.alongV(i, 0, star_);
+    const Index here = pieces.addPoints(star_);
+    if (i == 0) continue;
+    for (Index j = 0; j + 1 < width; ++j)
+      pieces.addFace({here - width + j, here + j, here + j + 1, here - width + j + 1});
+  }
+  pieces.breathe();
+}
+
+/// The array of an irregular vertex block by block, if that saves much.
+/// @return whether it does
+bool LocalPolygons::emitBlocks(const VertexArray& array, PolygonPieces& pieces, PolygonSink& sink) {
+  if (rule_ == nullptr) return false;
+  const auto log2Vertices = [](VertexDepth depth) { return depth.u + depth.v; };
+  constexpr int kLeastSaving = 2;
+  within_.clear();
+  bool saves = false;
+  for (const VertexArray::Block& block : array.blocks()) {
+    VertexDepth least = rule_->within(block.patch, block.depth);
+    // The outermost rows stay, 4 x 2^u vertices.
+    const bool much = block.depth.u > kLeastSaving + 1 &&
+                      log2Vertices(least) + kLeastSaving <= log2Vertices(block.depth);
+    if (!much) least = block.depth;
+    saves |= much;
+    within_.push_back(least);
+  }
+  if (!saves) return false;
+  for (std::size_t b = 0; b < within_.size(); ++b) {
+    const VertexArray::Block& block = array.blocks()[b];
+    const bool less = !(within_[b] == block.depth);
+    inner_.set(block.patch, within_[b]);
+    if (block.depth.u > 0 && (less || block.depth.v > 0)) emitGrid(inner_, pieces, sink);
+    if (less) emitRim(array, block, pieces);
+    emitSeams(array, block, pieces);
+  }
+  return true;
+}
+
+/// Between the outermost rows of a block and the fewer vertices within.
+void LocalPolygons::emitRim(const VertexArray& array, const VertexArray::Block& block,
+                            PolygonPieces& pieces) {
+  const auto alongV = [&](std::int64_t i) {
+    return SideRow{block.depth.v, [&array, &block, i](std::int64_t first, std::span<Vec3d> points) {
+                     array.alongV(i, block.v + first, points);
+                   }};
+  };
+  const auto alongU = [&](std::int64_t j) {
+    return SideRow{block.depth.u, [&array, &block, j](std::int64_t first, std::span<Vec3d> points) {
+                     array.alongU(j, block.u + first, points);
+                   }};
+  };
+  stitch(alongV(block.u), sideOfL(inner_), pieces);
+  stitch(sideOfNext(inner_), alongV(block.endU() - 1), pieces);
+  stitch(sideOfR(inner_), alongU(block.v), pieces);
+  stitch(alongU(block.endV() - 1), sideOfPrevious(inner_), pieces);
+}
+
+/// The faces between a block and those that come after it along u and v.
+void LocalPolygons::emitSeams(const VertexArray& array, const VertexArray::Block& block,
+                              PolygonPieces& pieces) {
+  constexpr std::int64_t kFaces = 1024;
+  const auto addQuads = [&](std::int64_t faces, const auto& before, const auto& after) {
+    for (std::int64_t first = 0; first < faces; first += kFaces) {
+      const std::int64_t count = std::min(kFaces, faces - first);
+      star_.resize(static_cast<std::size_t>(count + 1));
+      before(first, star_);
+      const Index a = pieces.addPoints(star_);
+      after(first, star_);
+      const Index b = pieces.addPoints(star_);
+      for (Index j = 0; j < count; ++j) pieces.addFace({a + j, b + j, b + j + 1, a + j + 1});
+      pieces.breathe();
+    }
+  };
+  if (block.endU() < array.sizeU())
+    addQuads(
+        std::min(block.endV(), array.sizeV() - 1) - block.v,
+        [&](std::int64_t j, std::span<Vec3d> row) {
+          array.alongV(block.endU() - 1, block.v + j, row);
+        },
+        [&](std::int64_t j, std::span<Vec3d> row) {
+          array.alongV(block.endU(), block.v + j, row);
+        });
+  if (block.endV() < array.sizeV())
+    addQuads(
+        block.endU() - 1 - block.u,
+        [&](std::int64_t i, std::span<Vec3d> row) { array.alongU(block.endV(), block.u + i, row); },
+        [&](std::int64_t i, std::span<Vec3d> row) {
+          array.alongU(block.endV() - 1, block.u + i, row);
+        });
+}
+
+/// What a corner owns across its edge: the strip to the corner beyond, at the same vertex, and for
+/// the first of the two corners of the edge the E-face.
+void LocalPolygons::emitEdge(const Corner& c, const VertexArray& here, const VertexArray& next,
+                             PolygonPieces& pieces) {
+  const SubdivisionLevel& base = vertices_.images().base();
+  const Index twin = base.adjacency.twin[c.number];
+  const Index beyond = nextCorner(base.mesh, base.adjacency, twin);
+  const bool strip = vertices_.hasK(c.slot());
+  if (!strip && twin < c.number) return;
+  other_.set(vertices_.acrossR(c), depths_[beyond]);
+  if (strip) stitch(sideOfR(here), sideOfL(other_), pieces);
+  if (twin < c.number) return;
+  otherFar_.set(vertices_.acrossRFromNext(c), depths_[twin]);
+  pieces.addPolygon(
+      std::array<Vec3d, 4>{next.cornerL(), here.cornerR(), other_.cornerL(), otherFar_.cornerR()});
+}
+
+/// The strips to the boundary points of a boundary edge, and the half E-face between them.
+void LocalPolygons::emitBoundaryEdge(const Corner& c, const VertexArray& here,
+                                     const VertexArray& next, PolygonPieces& pieces) {
+  const CurvePoints start = vertices_.curveAcrossR(c);
+  const CurvePoints end = vertices_.curveAcrossL(c.next());
+  stitch(sideOfR(here), boundaryRow(start, here.depth().u, true), pieces);
+  stitch(boundaryRow(end, next.depth().v, false), sideOfL(next), pieces);
+  pieces.addPolygon(std::array<Vec3d, 4>{next.cornerL(), here.cornerR(),
+                                         onCurve(start, here.sizeU() - 1, here.sizeU()),
+                                         onCurve(end, 0, next.sizeV())});
+}
+
+/// The V-face of a fan, or the half V-face, given the fan's first corner.
+void LocalPolygons::emitStar(const Corner& c, PolygonPieces& pieces) {
+  const SubdivisionLevel& base = vertices_.images().base();
+  const Index number = vertices_.images().starNumber(c.slot());
+  const LocalImages::Star& star = vertices_.images().stars()[number];
+  star_.clear();
+  Index corner = c.number;
+  Index last = corner;
+  for (Index place = 0; place < star.fan; ++place) {
+    const bool quad = base.mesh.faceSize(base.adjacency.cornerFace[corner]) == 4;
+    other_.set(vertices_.inStar(number, place, quad), depths_[corner]);
+    star_.push_back(other_.cornerK());
+    last = corner;
+    corner = nextAroundVertex(base.mesh, base.adjacency, corner);
+  }
+  if (!star.closed) {
+    const Vec3d& unknown = star.mEnd;
+    const std::int64_t startSize = std::int64_t{1} << depths_[c.number].u;
+    const std::int64_t endSize = std::int64_t{1} << depths_[last].v;
+    star_.push_back(onCurve({unknown, star.mEnd, star.mStart}, endSize - 1, endSize));
+    star_.push_back(onCurve({star.mEnd, star.mStart, unknown}, 0, startSize));
+  }
+  pieces.addPolygon(star_);
+}
+
+std::vector<std::uint8_t> regularCorners(const SubdivisionLevel& base) {
+  const Index corners = base.mesh.cornerCount();
+  std::vector<std::uint8_t> regular(corners);
+  for (Index c = 0; c < corners; ++c) {
+    if (base.mesh.faceSize(base.adjacency.cornerFace[c]) != 4) continue;
+    const OneRing ring = oneRing(base.mesh, base.adjacency, c);
+    const std::size_t half = base.boundary == BoundaryStage::kExtend ? 2 : ring.corners.size();
+    regular[c] = ring.corners.size() == (ring.closed ? 4 : half);
+  }
+  return regular;
+}
+
+}  // namespace vox

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "libvox/subdivide/depth_rule.h"
+#include "libvox/subdivide/local_images.h"
+#include "libvox/subdivide/vertex_array.h"
+
+#include <span>
+#include <vector>
+
+namespace vox {
+
+/// The level-1 vertices of a submesh with what lies around them, and of their neighbours beyond it
+/// what the faces between them depend on. The base mesh must have no interior vertex of two faces.
+/// One object per thread; work arrays are kept. Whatever the submesh, points have the same bits.
+class LocalVertices {
+ public:
+  explicit LocalVertices(const SubdivisionLevel& base) : images_(base) {}
+
+  /// Replaces the submesh. Cost: that of LocalImages.
+  void set(std::span<const Index> faces);
+
+  const LocalImages& images() const { return images_; }
+
+  /// A corner of a face of the submesh, by slots.
+  struct Corner {
+    Index first;   ///< slot of the face's first corner
+    Index place;   ///< in the face
+    Index size;    ///< of the face
+    Index number;  ///< of the corner in the base mesh
+    Index slot() const { return first + place; }
+    Corner next() const {
+      return place + 1 == size ? Corner{first, 0, size, number - place}
+                               : Corner{first, place + 1, size, number + 1};
+    }
+    Corner previous() const {
+      return place == 0 ? Corner{first, size - 1, size, number + size - 1}
+                        : Corner{first, place - 1, size, number - 1};
+    }
+  };
+
+  /// A vertex of the submesh. What it refers to is valid until a corner of another face is asked
+  /// for.
+  LevelOneVertex at(const Corner& corner);
+  /// The neighbour across R, near which it is known as far as R and K go: its L and K.
+  LevelOneVertex acrossR(const Corner& corner);
+  /// The neighbour across R of the vertex at the next corner, as far as R goes.
+  LevelOneVertex acrossRFromNext(const Corner& corner);
+  /// A vertex of a star, as far as the star goes.
+  LevelOneVertex inStar(Index star, Index place, bool quadF);
+
+  /// What stop rules look at.
+  VertexFaces facesAt(const Corner& corner);
+  BoundaryCurves curvesAt(const Corner& corner) const;
+  /// Boundary points across R and L of a corner, with their neighbours along the boundary.
+  CurvePoints curveAcrossR(const Corner& corner) const;
+  CurvePoints curveAcrossL(const Corner& corner) const;
+
+  bool hasK(Index slot) const { return images_.star(slot).closed || images_.extends(); }
+  bool isBoundary(const Corner& corner) const {
+    return images_.base().adjacency.twin[corner.number] == kNone;
+  }
+
+ private:
+  void prepareStars();
+  Index sizeOfK(const LocalImages::Star& star) const {
+    return star.closed || images_.extends() ? star.size : 4;
+  }
+  Patch patchAt(const Corner& corner) const;
+  void splitK(const LocalImages::Star& star, Index number, Index place, LevelOneVertex& vertex);
+  void openFace(const Corner& corner);
+  void shapeStar(Index number);
+
+  LocalImages images_;
+  FaceImages faceImages_;
+  std::vector<Vec3d> second_;      // level 2 in the faces, per slot
+  std::vector<Vec3d> starSecond_;  // level 2 in the stars, per point
+  std::vector<ExtraordinaryRings> starRings_;
+  std::vector<FaceShape> starShapes_;
+  std::vector<std::uint8_t> starShaped_;
+  ExtraordinaryRings faceRings_;
+  Index openFace_ = kNone;  // first slot of the face of faceRings_
+  FaceShape faceShape_;
+  Index shapedFace_ = kNone;
+};
+
+}  // namespace vox

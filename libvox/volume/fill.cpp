@@ -1,0 +1,362 @@
+// Flood of the outside over the tree of a surface: connected sets of white voxels in leaves, empty
+// leaves' places and empty inner nodes' places are the elements, joined where their faces touch.
+
+#include "libvox/volume/fill.h"
+
+#include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
+#include "libvox/volume/disjoint_sets.h"
+#include "libvox/volume/leaf_regions.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+namespace vox {
+namespace {
+
+using openvdb::Coord;
+using openvdb::MaskTree;
+using Leaf = MaskTree::LeafNodeType;
+using Upper = MaskTree::RootNodeType::ChildNodeType;
+using Lower = Upper::ChildNodeType;
+using Element = std::uint32_t;
+
+constexpr Element kOutside = 0;
+constexpr Element kBlack = std::numeric_limits<Element>::max();
+constexpr std::size_t kLeavesPerTask = 64;
+
+/// Step across a side.
+Coord stepAcross(int side, int length) {
+  Coord step(0, 0, 0);
+  step[side / 2] = side % 2 == 1 ? length : -length;
+  return step;
+}
+
+/// By row along x: then consecutive ones have nothing between them.
+struct ByRow {
+  bool operator()(const Coord& a, const Coord& b) const {
+    return std::make_tuple(a.z(), a.y(), a.x()) < std::make_tuple(b.z(), b.y(), b.x());
+  }
+};
+
+LeafWords wordsOf(const Leaf& leaf) {
+  LeafWords words{};
+  for (openvdb::Index x = 0; x < words.size(); ++x)
+    words[x] = leaf.getValueMask().getWord<openvdb::Index64>(x);
+  return words;
+}
+
+/// Whether a place in a node is empty.
+template <class Node>
+bool isWhite(const Node& node, openvdb::Index slot) {
+  return !node.isChildMaskOn(slot) && !node.isValueMaskOn(slot);
+}
+
+class Flood {
+ public:
+  explicit Flood(const MaskTree& surface) {
+    surface.getNodes(uppers_);
+    surface.getNodes(lowers_);
+    findLeaves();
+    findRegions();
+    numberElements();
+  }
+
+  /// Joins what touches.
+  void run() {
+    sets_ = std::make_unique<DisjointSets>(elementCount_);
+    forEach(lowers_.size(), 1, [&](std::size_t l) { joinInLower(l); });
+    forEach(uppers_.size(), 1, [&](std::size_t u) { joinInUpper(u); });
+    joinAroundUppers();
+  }
+
+  /// Gives back to the outside what the caller says is a cavity.
+  void open(const AreCavities& areCavities) {
+    std::map<Element, std::pair<int, Coord>> deepest;  // of each enclosed region: how deep, where
+    forEachEnclosed([&](Element e, int depth, const Coord& voxel) {
+      const auto [region, isNew] = deepest.try_emplace(sets_->find(e), depth, voxel);
+      if (!isNew && depth > region->second.first) region->second = {depth, voxel};
+    });
+    if (deepest.empty()) return;
+    std::vector<Coord> voxels;
+    for (const auto& [region, deep] : deepest) voxels.push_back(deep.second);
+    const std::vector<bool> cavity = areCavities(voxels);
+    std::size_t i = 0;
+    for (const auto& [region, deep] : deepest)
+      if (cavity[i++]) sets_->unite(region, kOutside);
+  }
+
+  /// Switches on what is enclosed, in a copy of the surface.
+  void fill(MaskTree& copy) {
+    std::vector<Upper*> uppers;
+    std::vector<Lower*> lowers;
+    copy.getNodes(uppers);
+    copy.getNodes(lowers);
+    forEach(lowers.size(), 1, [&](std::size_t l) { fillLower(l, *lowers[l]); });
+    forEach(uppers.size(), 1, [&](std::size_t u) {
+      for (openvdb::Index slot = 0; slot < Upper::NUM_VALUES; ++slot)
+        if (!uppers[u]->isChildMaskOn(slot) && isEnclosed(upperElement(u, slot)))
+          uppers[u]->addTile(slot, true, true);
+    });
+    fillAroundUppers(copy);
+  }
+
+ private:
+  // Elements: the outside; white regions of leaves; places in lower and upper nodes, whether or
+  // not they are empty; empty neighbours of upper nodes.
+  Element leafElement(Element region) const { return 1 + region; }
+  Element lowerElement(std::size_t l, openvdb::Index slot) const {
+    return static_cast<Element>(firstOfLowers_ + l * Lower::NUM_VALUES + slot);
+  }
+  Element upperElement(std::size_t u, openvdb::Index slot) const {
+    return static_cast<Element>(firstOfUppers_ + u * Upper::NUM_VALUES + slot);
+  }
+  /// Of an element that is white.
+  bool isEnclosed(Element e) { return sets_->find(e) != kOutside; }
+
+  void findLeaves() {
+    for (std::size_t l = 0; l < lowers_.size(); ++l) {
+      lowerAt_[lowers_[l]->origin()] = l;
+      firstLeaf_.push_back(static_cast<Element>(leaves_.size()));
+      for (auto leaf = lowers_[l]->cbeginChildOn(); leaf; ++leaf) leaves_.push_back(&*leaf);
+    }
+    for (std::size_t u = 0; u < uppers_.size(); ++u) upperAt_[uppers_[u]->origin()] = u;
+  }
+
+  void findRegions() {
+    std::vector<std::vector<LeafWords>> ofTask(leaves_.size() / kLeavesPerTask + 1);
+    firstRegion_.assign(leaves_.size() + 1, 0);
+    forEach(ofTask.size(), 1, [&](std::size_t task) {
+      const std::size_t end = std::min(leaves_.size(), (task + 1) * kLeavesPerTask);
+      for (std::size_t i = task * kLeavesPerTask; i < end; ++i) {
+        const std::size_t before = ofTask[task].size();
+        appendWhiteRegions(wordsOf(*leaves_[i]), ofTask[task]);
+        firstRegion_[i + 1] = static_cast<Element>(ofTask[task].size() - before);
+      }
+    });
+    for (std::size_t i = 0; i < leaves_.size(); ++i) firstRegion_[i + 1] += firstRegion_[i];
+    for (const auto& regions : ofTask)
+      regions_.insert(regions_.end(), regions.begin(), regions.end());
+  }
+
+  void numberElements() {
+    findShell();
+    firstOfLowers_ = 1 + regions_.size();
+    firstOfUppers_ = firstOfLowers_ + lowers_.size() * Lower::NUM_VALUES;
+    firstOfShell_ = firstOfUppers_ + uppers_.size() * Upper::NUM_VALUES;
+    elementCount_ = firstOfShell_ + shell_.size();
+    if (elementCount_ >= kBlack)
+      throw LimitError("the surface has too many leaves to fill; use larger voxels");
+  }
+
+  /// Upper nodes and the empty places around them, in rows along x.
+  void findShell() {
+    for (const auto& [origin, u] : upperAt_)
+      for (int i = -1; i <= 1; ++i)
+        for (int j = -1; j <= 1; ++j)
+          for (int k = -1; k <= 1; ++k) {
+            const int dim = static_cast<int>(Upper::DIM);
+            const Coord near = origin.offsetBy(i * dim, j * dim, k * dim);
+            if (upperAt_.count(near) == 0) shell_.emplace(near, 0);
+          }
+    Element number = 0;
+    for (auto& [origin, element] : shell_) element = number++;
+  }
+  Element shellElement(const Coord& origin) const {
+    return static_cast<Element>(firstOfShell_ + shell_.at(origin));
+  }
+
+  /// Of a place that is inside no lower node; kBlack if it is no element.
+  Element elementAround(const Coord& voxel) const {
+    const Coord origin = voxel & ~(static_cast<int>(Upper::DIM) - 1);
+    const auto upper = upperAt_.find(origin);
+    if (upper == upperAt_.end()) return shellElement(origin);
+    const openvdb::Index slot = Upper::coordToOffset(voxel);
+    if (uppers_[upper->second]->isValueMaskOn(slot)) return kBlack;
+    return upperElement(upper->second, slot);
+  }
+
+  /// Calls visit(element, its voxels on a side) for the elements at a place of a lower node.
+  template <class Visit>
+  void forSide(std::size_t l, openvdb::Index slot, int side, Visit&& visit) const {
+    if (lowers_[l]->isValueMaskOn(slot)) return;  // black
+    if (!lowers_[l]->isChildMaskOn(slot)) return visit(lowerElement(l, slot), ~std::uint64_t{0});
+    const Element leaf = leafAt(l, slot);
+    for (Element r = firstRegion_[leaf]; r < firstRegion_[leaf + 1]; ++r)
+      if (const std::uint64_t bits = sideOf(regions_[r], side)) visit(leafElement(r), bits);
+  }
+  Element leafAt(std::size_t l, openvdb::Index slot) const {
+    // Children are in the order of their places.
+    Element rank = firstLeaf_[l];
+    const auto& mask = lowers_[l]->getChildMask();
+    for (openvdb::Index word = 0; word < slot / 64; ++word)
+      rank += openvdb::util::CountOn(mask.getWord<openvdb::Index64>(word));
+    const openvdb::Index64 below = (openvdb::Index64{1} << (slot % 64)) - 1;
+    return rank + openvdb::util::CountOn(mask.getWord<openvdb::Index64>(slot / 64) & below);
+  }
+
+  void joinPlaces(std::size_t l, openvdb::Index slot, std::size_t m, openvdb::Index other,
+                  int axis) {
+    forSide(l, slot, 2 * axis + 1, [&](Element a, std::uint64_t bitsA) {
+      forSide(m, other, 2 * axis, [&](Element b, std::uint64_t bitsB) {
+        if ((bitsA & bitsB) != 0) sets_->unite(a, b);
+      });
+    });
+  }
+
+  /// Each place with the next along each axis; at the border of the node, with what is there.
+  void joinInLower(std::size_t l) {
+    constexpr int kSide = 1 << Lower::LOG2DIM;
+    constexpr int kLeafDim = Leaf::DIM;
+    for (openvdb::Index slot = 0; slot < Lower::NUM_VALUES; ++slot) {
+      Coord local;
+      Lower::offsetToLocalCoord(slot, local);
+      const Coord origin = lowers_[l]->offsetToGlobalCoord(slot);
+      for (int side = 0; side < kSides; ++side) {
+        const int axis = side / 2;
+        const bool upper = side % 2 == 1;
+        const Coord across = origin + stepAcross(side, kLeafDim);
+        if (local[axis] != (upper ? kSide - 1 : 0)) {
+          if (upper) joinPlaces(l, slot, l, Lower::coordToOffset(across), axis);
+          continue;
+        }
+        const auto next = lowerAt_.find(across & ~(static_cast<int>(Lower::DIM) - 1));
+        if (next == lowerAt_.end()) {
+          const Element around = elementAround(across);
+          if (around == kBlack) continue;
+          forSide(l, slot, side, [&](Element e, std::uint64_t) { sets_->unite(e, around); });
+        } else if (upper) {
+          joinPlaces(l, slot, next->second, Lower::coordToOffset(across), axis);
+        }
+      }
+    }
+  }
+
+  /// Empty places with what is around them and has no lower node: those are joined from there.
+  void joinInUpper(std::size_t u) {
+    for (openvdb::Index slot = 0; slot < Upper::NUM_VALUES; ++slot) {
+      if (!isWhite(*uppers_[u], slot)) continue;
+      const Coord origin = uppers_[u]->offsetToGlobalCoord(slot);
+      for (int side = 0; side < kSides; ++side) {
+        const Coord across = origin + stepAcross(side, static_cast<int>(Lower::DIM));
+        if (lowerAt_.count(across) == 0) sets_->unite(upperElement(u, slot), elementAround(across));
+      }
+    }
+  }
+
+  /// The empty neighbours of upper nodes: with neighbours, with the next one in the row if there is
+  /// no upper node between them, and the first of a row with the outside. That joins all that is
+  /// connected: the empty places around a set of upper nodes that hang together are connected among
+  /// themselves, and from the leftmost of such a set the row leads to what is around it.
+  void joinAroundUppers() {
+    constexpr int kDim = static_cast<int>(Upper::DIM);
+    for (auto place = shell_.begin(); place != shell_.end(); ++place) {
+      const Coord& origin = place->first;
+      for (const Coord& next : {origin.offsetBy(0, kDim, 0), origin.offsetBy(0, 0, kDim)})
+        if (shell_.count(next) > 0) sets_->unite(shellElement(origin), shellElement(next));
+      const auto before = place == shell_.begin() ? place : std::prev(place);
+      if (before == place || before->first.y() != origin.y() || before->first.z() != origin.z())
+        sets_->unite(shellElement(origin), kOutside);
+      else if (upperAt_.count(origin.offsetBy(-kDim, 0, 0)) == 0)
+        sets_->unite(shellElement(origin), shellElement(before->first));
+    }
+  }
+
+  void fillLower(std::size_t l, Lower& lower) {
+    Element leaf = firstLeaf_[l];
+    for (openvdb::Index slot = 0; slot < Lower::NUM_VALUES; ++slot) {
+      if (!lower.isChildMaskOn(slot)) {
+        if (isEnclosed(lowerElement(l, slot))) lower.addTile(slot, true, true);
+        continue;
+      }
+      auto child = lower.probeLeaf(lower.offsetToGlobalCoord(slot));
+      for (Element r = firstRegion_[leaf]; r < firstRegion_[leaf + 1]; ++r)
+        if (isEnclosed(leafElement(r)))
+          for (std::size_t x = 0; x < regions_[r].size(); ++x)
+            child->buffer().data()[x] |= regions_[r][x];
+      ++leaf;
+    }
+  }
+
+  void fillAroundUppers(MaskTree& copy) {
+    constexpr int kDim = static_cast<int>(Upper::DIM);
+    for (auto place = shell_.begin(); place != shell_.end(); ++place) {
+      if (!isEnclosed(shellElement(place->first))) continue;
+      // All empty places up to the next known one belong to it.
+      Coord at = place->first;
+      do {
+        copy.root().addTile(at, true, true);
+        at.x() += kDim;
+      } while (shell_.count(at) == 0 && upperAt_.count(at) == 0);
+    }
+  }
+
+  /// Calls visit(element, how deep, voxel) for everything enclosed.
+  template <class Visit>
+  void forEachEnclosed(Visit&& visit) {
+    const auto visitTile = [&](Element e, const Coord& origin, int dim) {
+      if (isEnclosed(e)) visit(e, dim / 2, origin.offsetBy(dim / 2));
+    };
+    for (const auto& [origin, number] : shell_)
+      visitTile(shellElement(origin), origin, static_cast<int>(Upper::DIM));
+    for (std::size_t u = 0; u < uppers_.size(); ++u)
+      for (openvdb::Index slot = 0; slot < Upper::NUM_VALUES; ++slot)
+        if (isWhite(*uppers_[u], slot))
+          visitTile(upperElement(u, slot), uppers_[u]->offsetToGlobalCoord(slot),
+                    static_cast<int>(Lower::DIM));
+    for (std::size_t l = 0; l < lowers_.size(); ++l)
+      for (openvdb::Index slot = 0; slot < Lower::NUM_VALUES; ++slot)
+        if (isWhite(*lowers_[l], slot))
+          visitTile(lowerElement(l, slot), lowers_[l]->offsetToGlobalCoord(slot), Leaf::DIM);
+    for (Element leaf = 0; leaf < leaves_.size(); ++leaf)
+      for (Element r = firstRegion_[leaf]; r < firstRegion_[leaf + 1]; ++r) {
+        if (!isEnclosed(leafElement(r))) continue;
+        const DeepVoxel deep = deepestOf(regions_[r]);
+        visit(leafElement(r), deep.depth,
+              leaves_[leaf]->origin() +
+                  Leaf::offsetToLocalCoord(static_cast<openvdb::Index>(deep.voxel)));
+      }
+  }
+
+  std::vector<const Upper*> uppers_;
+  std::vector<const Lower*> lowers_;
+  std::vector<const Leaf*> leaves_;       // of one lower node after the other
+  std::map<Coord, std::size_t> upperAt_;  // by origin
+  std::map<Coord, std::size_t> lowerAt_;
+  std::map<Coord, Element, ByRow> shell_;  // empty neighbours of upper nodes
+  std::vector<Element> firstLeaf_;         // per lower node
+  std::vector<Element> firstRegion_;       // per leaf, and the end
+  std::vector<LeafWords> regions_;
+  std::size_t firstOfLowers_ = 0;
+  std::size_t firstOfUppers_ = 0;
+  std::size_t firstOfShell_ = 0;
+  std::size_t elementCount_ = 0;
+  std::unique_ptr<DisjointSets> sets_;
+};
+
+}  // namespace
+
+openvdb::MaskTree::Ptr filled(const openvdb::MaskTree& surface, const AreCavities& areCavities) {
+  Flood flood(surface);
+  flood.run();
+  if (areCavities) flood.open(areCavities);
+  auto solid = std::make_shared<MaskTree>(surface);
+  flood.fill(*solid);
+  return solid;
+}
+
+std::uint64_t bytesOfFilling(const openvdb::MaskTree& surface) {
+  const auto nodes = surface.nodeCount();  // leaves first, root last
+  constexpr std::uint64_t kRegions = 2;    // of a leaf, mostly
+  return nodes[0] * (sizeof(Leaf) + 2 * kRegions * sizeof(LeafWords)) +
+         nodes[1] * (sizeof(Lower) + Lower::NUM_VALUES * sizeof(Element)) +
+         nodes[2] * (sizeof(Upper) + Upper::NUM_VALUES * sizeof(Element));
+}
+
+}  // namespace vox

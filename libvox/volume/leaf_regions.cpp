@@ -1,0 +1,98 @@
+// Connected sets of voxels in a leaf, 64 voxels at a time.
+
+#include "libvox/volume/leaf_regions.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace vox {
+namespace {
+
+constexpr std::uint64_t kLowZ = 0x0101010101010101;
+constexpr std::uint64_t kHighZ = kLowZ << 7U;
+
+bool isEmpty(const LeafWords& leaf) {
+  return std::all_of(leaf.begin(), leaf.end(), [](std::uint64_t word) { return word == 0; });
+}
+
+int lowestVoxel(const LeafWords& leaf) {
+  int x = 0;
+  while (leaf[static_cast<std::size_t>(x)] == 0) ++x;
+  return 64 * x + std::countr_zero(leaf[static_cast<std::size_t>(x)]);
+}
+
+/// Voxels of the plane, and their neighbours in it.
+std::uint64_t grownInPlane(std::uint64_t word) {
+  return word | word << 8U | word >> 8U | (word & ~kHighZ) << 1U | (word & ~kLowZ) >> 1U;
+}
+
+/// The set within `allowed` that is connected to a voxel.
+LeafWords floodedFrom(int voxel, const LeafWords& allowed) {
+  LeafWords flooded{};
+  flooded[static_cast<std::size_t>(voxel / 64)] = std::uint64_t{1} << (voxel % 64);
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (std::size_t x = 0; x < flooded.size(); ++x) {
+      std::uint64_t word = grownInPlane(flooded[x]);
+      if (x > 0) word |= flooded[x - 1];
+      if (x + 1 < flooded.size()) word |= flooded[x + 1];
+      word &= allowed[x];
+      grows |= word != flooded[x];
+      flooded[x] = word;
+    }
+  }
+  return flooded;
+}
+
+LeafWords eroded(const LeafWords& leaf) {
+  LeafWords white{};
+  LeafWords result{};
+  for (std::size_t x = 0; x < leaf.size(); ++x) white[x] = ~leaf[x];
+  for (std::size_t x = 0; x < leaf.size(); ++x) {
+    std::uint64_t gone = grownInPlane(white[x]);
+    if (x > 0) gone |= white[x - 1];
+    if (x + 1 < leaf.size()) gone |= white[x + 1];
+    result[x] = ~gone;
+  }
+  return result;
+}
+
+/// Bits 0, 8, .. 56 as bits 0 .. 7.
+std::uint64_t gathered(std::uint64_t column) {
+  return column * 0x0102040810204080U >> 56U;
+}
+
+}  // namespace
+
+std::uint64_t sideOf(const LeafWords& leaf, int side) {
+  const bool upper = side % 2 == 1;
+  if (side < 2) return leaf[upper ? 7 : 0];
+  std::uint64_t bits = 0;
+  for (std::size_t x = 0; x < leaf.size(); ++x) {
+    const std::uint64_t row = side < 4 ? leaf[x] >> (upper ? 56U : 0U) & 0xFFU
+                                       : gathered(leaf[x] >> (upper ? 7U : 0U) & kLowZ);
+    bits |= row << 8 * x;
+  }
+  return bits;
+}
+
+void appendWhiteRegions(const LeafWords& black, std::vector<LeafWords>& regions) {
+  LeafWords white{};
+  for (std::size_t x = 0; x < white.size(); ++x) white[x] = ~black[x];
+  while (!isEmpty(white)) {
+    regions.push_back(floodedFrom(lowestVoxel(white), white));
+    for (std::size_t x = 0; x < white.size(); ++x) white[x] &= ~regions.back()[x];
+  }
+}
+
+DeepVoxel deepestOf(const LeafWords& region) {
+  LeafWords core = region;
+  constexpr int kMostErosions = 16;  // more than a leaf survives, unless it is all there
+  for (int depth = 0;; ++depth) {
+    const LeafWords next = eroded(core);
+    if (depth == kMostErosions || isEmpty(next)) return {depth, lowestVoxel(core)};
+    core = next;
+  }
+}
+
+}  // namespace vox

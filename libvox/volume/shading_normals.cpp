@@ -1,0 +1,263 @@
+// Congradient shading. Source: paper section 9.
+
+#include "libvox/volume/shading_normals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace vox {
+namespace {
+
+using openvdb::Coord;
+using Voxels = openvdb::tree::ValueAccessor<const openvdb::MaskTree>;
+
+/// Columns to each side. Over a wide window the rounding of voxels is averaged down to a fraction
+/// of a degree; small features and edges need a narrow one.
+constexpr int kReach = 6;
+constexpr int kNarrowReach = 3;
+constexpr int kSide = 2 * kReach + 1;
+
+/// Most steps up or down to the next column of a sheet: slopes to 45 degrees, and rounding.
+constexpr int kMostStep = 2;
+constexpr std::size_t kKnownLog2 = 9;
+
+constexpr int kNoHeight = std::numeric_limits<int>::max();
+
+/// Columns over the plane of axes u and v, heights along the third, toward the viewer.
+struct HeightFrame {
+  Coord origin;
+  int up, u, v;
+  int sign;  // of the direction up
+
+  Coord at(int i, int j, int height) const {
+    Coord voxel = origin;
+    voxel[u] += i;
+    voxel[v] += j;
+    voxel[up] += sign * height;
+    return voxel;
+  }
+};
+
+using Heights = std::array<std::array<int, kSide>, kSide>;  // [i + kReach][j + kReach]
+
+/// Top of the run of voxels that holds a height, no more than kMostStep higher.
+int climb(Voxels& voxels, const HeightFrame& frame, int i, int j, int height) {
+  const int most = height + kMostStep;
+  while (height < most && voxels.isValueOn(frame.at(i, j, height + 1))) ++height;
+  return height;
+}
+
+/// Height of the sheet in a column, given that of a neighbour.
+int heightBeside(Voxels& voxels, const HeightFrame& frame, int i, int j, int neighbour) {
+  if (neighbour == kNoHeight) return kNoHeight;
+  const auto isOn = [&](int height) { return voxels.isValueOn(frame.at(i, j, height)); };
+  if (isOn(neighbour)) return climb(voxels, frame, i, j, neighbour);
+  if (isOn(neighbour + 1)) return isOn(neighbour + 2) ? neighbour + 2 : neighbour + 1;
+  for (const int step : {-1, 2, -2})
+    if (isOn(neighbour + step)) return neighbour + step;
+  return kNoHeight;
+}
+
+Heights heightsAround(Voxels& voxels, const HeightFrame& frame) {
+  Heights heights;
+  const auto at = [&](int i, int j) -> int& {
+    return heights[static_cast<std::size_t>(i + kReach)][static_cast<std::size_t>(j + kReach)];
+  };
+  at(0, 0) = climb(voxels, frame, 0, 0, 0);
+  for (const int side : {-1, 1})
+    for (int j = side; std::abs(j) <= kReach; j += side)
+      at(0, j) = heightBeside(voxels, frame, 0, j, at(0, j - side));
+  for (int j = -kReach; j <= kReach; ++j)
+    for (const int side : {-1, 1})
+      for (int i = side; std::abs(i) <= kReach; i += side)
+        at(i, j) = heightBeside(voxels, frame, i, j, at(i - side, j));
+  return heights;
+}
+
+/// What a plane h = a + p i + q j through columns is fitted from.
+struct Moments {
+  int n = 0, i = 0, j = 0, h = 0, ii = 0, jj = 0, hh = 0, ij = 0, ih = 0, jh = 0;
+
+  void addColumn(int atI, int atJ, int height) {
+    add({1, atI, atJ, height, atI * atI, atJ * atJ, height * height, atI * atJ, atI * height,
+         atJ * height});
+  }
+  void add(const Moments& other) {
+    n += other.n;
+    i += other.i;
+    j += other.j;
+    h += other.h;
+    ii += other.ii;
+    jj += other.jj;
+    hh += other.hh;
+    ij += other.ij;
+    ih += other.ih;
+    jh += other.jh;
+  }
+};
+
+/// Moments of the columns before, at and after the middle, along i and j.
+using Blocks = std::array<std::array<Moments, 3>, 3>;
+
+/// What the windows around a voxel hold.
+struct Windows {
+  Blocks narrow;
+  Moments wide;
+};
+
+Windows windowsOf(const Heights& heights) {
+  Windows windows;
+  const auto block = [](int i) { return static_cast<std::size_t>((i > 0) - (i < 0) + 1); };
+  for (int i = -kReach; i <= kReach; ++i)
+    for (int j = -kReach; j <= kReach; ++j) {
+      const int height =
+          heights[static_cast<std::size_t>(i + kReach)][static_cast<std::size_t>(j + kReach)];
+      if (height == kNoHeight) continue;
+      windows.wide.addColumn(i, j, height);
+      if (std::max(std::abs(i), std::abs(j)) <= kNarrowReach)
+        windows.narrow[block(i)][block(j)].addColumn(i, j, height);
+    }
+  return windows;
+}
+
+struct Plane {
+  std::array<double, 2> slope{};   // along i and j
+  std::array<double, 2> weight{};  // of each; 0: columns that do not span a plane
+};
+
+/// Least squares.
+Plane planeThrough(const Moments& m) {
+  constexpr int kLeastColumns = 6;
+  Plane plane;
+  if (m.n < kLeastColumns) return plane;
+  const double n = m.n;
+  const double ii = m.ii - m.i * m.i / n;
+  const double jj = m.jj - m.j * m.j / n;
+  const double ij = m.ij - m.i * m.j / n;
+  const double ih = m.ih - m.i * m.h / n;
+  const double jh = m.jh - m.j * m.h / n;
+  const double determinant = ii * jj - ij * ij;
+  constexpr double kLeastSpread = 1e-6;  // of integers: it is 0 or larger by far
+  if (determinant < kLeastSpread) return plane;
+  plane.slope = {(ih * jj - jh * ij) / determinant, (jh * ii - ih * ij) / determinant};
+  const double hh = m.hh - m.h * m.h / n;
+  const double misfit = (hh - plane.slope[0] * ih - plane.slope[1] * jh) / n;
+  // Rounding alone leaves a misfit of about 1/12, half of it or less where it is lucky, and slopes
+  // a variance by their spread; an edge of 45 degrees leaves three times the misfit.
+  constexpr double kLuck = 0.04;
+  constexpr double kSoftness = 0.1;
+  const double small = 1 / (1 + std::max(0.0, misfit - kLuck) / kSoftness);
+  const double fit = small * small * small * small;
+  plane.weight = {ii * fit, jj * fit};
+  return plane;
+}
+
+/// Moments of the blocks [i0, i1] x [j0, j1].
+Moments momentsOver(const Blocks& blocks, std::size_t i0, std::size_t i1, std::size_t j0,
+                    std::size_t j1) {
+  Moments all;
+  for (std::size_t i = i0; i <= i1; ++i)
+    for (std::size_t j = j0; j <= j1; ++j) all.add(blocks[i][j]);
+  return all;
+}
+
+/// A one-sided difference bends with a curved surface: it has to fit better before it counts.
+constexpr double kTrustInCentral = 4;
+
+struct Differences {
+  Plane backward, central, forward, wide;
+
+  /// Their slopes as one.
+  double mixed(std::size_t axis) const {
+    double sum = 0;
+    double weights = 0;
+    const auto add = [&](const Plane& plane, double trust) {
+      sum += trust * plane.weight[axis] * plane.slope[axis];
+      weights += trust * plane.weight[axis];
+    };
+    add(backward, 1);
+    add(central, kTrustInCentral);
+    add(forward, 1);
+    add(wide, kTrustInCentral);
+    return weights > 0 ? sum / weights : 0;
+  }
+};
+
+/// A normal, and what speaks for the plane it was found over.
+struct Estimate {
+  Vec3d normal;
+  int columns;   // of the narrow window
+  double score;  // of all columns, seen as the surface faces the plane
+};
+
+Estimate estimateIn(Voxels& voxels, const HeightFrame& frame) {
+  const Windows windows = windowsOf(heightsAround(voxels, frame));
+  const Blocks& blocks = windows.narrow;
+  const Moments all = momentsOver(blocks, 0, 2, 0, 2);
+  const Plane central = planeThrough(all);
+  const Plane wide = planeThrough(windows.wide);
+  const Differences alongU = {planeThrough(momentsOver(blocks, 0, 1, 0, 2)), central,
+                              planeThrough(momentsOver(blocks, 1, 2, 0, 2)), wide};
+  const Differences alongV = {planeThrough(momentsOver(blocks, 0, 2, 0, 1)), central,
+                              planeThrough(momentsOver(blocks, 0, 2, 1, 2)), wide};
+  Estimate estimate;
+  estimate.normal[frame.up] = frame.sign;
+  estimate.normal[frame.u] = -alongU.mixed(0);
+  estimate.normal[frame.v] = -alongV.mixed(1);
+  estimate.normal.normalize();
+  estimate.columns = all.n;
+  estimate.score = all.n * std::abs(estimate.normal[frame.up]);
+  return estimate;
+}
+
+int largestComponent(const Vec3d& v) {
+  int axis = 0;
+  v.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
+}  // namespace
+
+CongradientNormals::CongradientNormals(const openvdb::MaskTree& voxels)
+    : voxels_(voxels), known_(std::size_t{1} << kKnownLog2) {}
+
+Vec3d CongradientNormals::at(const Coord& voxel, const Vec3d& face, const Vec3d& towardViewer) {
+  const int start = largestComponent(face);
+  const int side = 2 * start + (face[start] < 0 ? 1 : 0);
+  Known& known = known_[voxel.hash<kKnownLog2>()];
+  if (known.side != side || known.voxel != voxel)
+    known = {voxel, side, estimate(voxel, start, face[start] < 0 ? -1 : 1)};
+  // Where the surface turns from sight, the viewer alone does not tell its sides apart.
+  return known.normal.dot(towardViewer + face) < 0 ? Vec3d(-known.normal) : known.normal;
+}
+
+Vec3d CongradientNormals::estimate(const Coord& voxel, int start, int sign) {
+  // A plane that the surface leans over, or that it breaks off from, is left for a better one.
+  constexpr int kEnoughColumns = 40;
+  constexpr double kLeaning = 1.15;
+  Vec3d first = Vec3d::Zero();
+  Estimate best{Vec3d::Zero(), 0, -1};
+  std::array<bool, 3> tried{};
+  for (int up = start; !tried[static_cast<std::size_t>(up)];) {
+    tried[static_cast<std::size_t>(up)] = true;
+    if (up != start && first[up] != 0) sign = first[up] < 0 ? -1 : 1;
+    const HeightFrame frame{voxel, up, (up + 1) % 3, (up + 2) % 3, sign};
+    const Estimate estimate = estimateIn(voxels_, frame);
+    if (up == start) first = estimate.normal;
+    if (estimate.score > best.score) best = estimate;
+    const int facing = largestComponent(estimate.normal);
+    const bool leans = std::abs(estimate.normal[facing]) > kLeaning * std::abs(estimate.normal[up]);
+    if (!leans && estimate.columns >= kEnoughColumns) break;
+    const int next = leans ? facing : (up + 1) % 3;
+    for (int axis = next; axis < next + 3; ++axis) {
+      up = axis % 3;
+      if (!tried[static_cast<std::size_t>(up)]) break;
+    }
+  }
+  return best.normal;
+}
+
+}  // namespace vox

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "libvox/core/types.h"
+#include "libvox/grid/texture_spec.h"
+#include "libvox/grid/transform.h"
+
+namespace vox {
+
+/// A solid texture, ready to be looked at.
+///
+/// checker: cells; stripes: bands across the axis; rings: wood around the axis; marble: veins
+/// across the axis; noise: blobs; gradient: from one end to the other along the axis; brick:
+/// courses along z. Noise displaces stripes, rings and veins. The same bits on every processor that
+/// keeps to IEEE 754.
+class SolidTexture {
+ public:
+  /// @param extent  of the object in the texture's space, for what the texture does not say
+  SolidTexture(const TextureSpec& spec, const Box& extent);
+
+  /// Linear colour at a place in the texture's space. Thread-safe.
+  Vec3d colorAt(const Vec3d& place) const;
+
+ private:
+  double displacement(const Vec3d& p) const;
+  Vec3d ringColor(const Vec3d& p) const;
+  Vec3d brickColor(const Vec3d& p) const;
+
+  TextureSpec spec_;
+  Vec3d axis_;  // unit
+  double scale_;
+  double from_;
+  double to_;
+};
+
+}  // namespace vox

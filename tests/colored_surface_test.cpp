@@ -1,0 +1,187 @@
+#include "libvox/subdivide/colored_surface.h"
+
+#include "libvox/grid/transform.h"
+#include "libvox/pipeline/convert.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "libvox/volume/color_sums.h"
+#include "tests/shapes.h"
+
+#include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <vector>
+
+using namespace vox;
+using openvdb::Coord;
+
+namespace {
+
+/// Colours that are an affine function of the place: 0 to 1 over the box of the mesh.
+PolygonMesh coloredByPlace(PolygonMesh mesh) {
+  const Box box = usedBox(mesh);
+  const double side = box.longestSide();
+  for (const Vec3d& p : mesh.points)
+    mesh.pointColors.push_back(((p - box.low) / side).cast<float>());
+  return mesh;
+}
+
+Conversion convertColor(const PolygonMesh& mesh, const ConvertOptions& more, int dim) {
+  Scene scene;
+  scene.objects.push_back({"object", mesh});
+  ConvertOptions options = more;
+  options.dim = dim;
+  options.grids = std::vector{GridKind::kColor};
+  return convert(scene, options);
+}
+
+const openvdb::Vec3SGrid& colorOf(const Conversion& conversion) {
+  return dynamic_cast<const openvdb::Vec3SGrid&>(*conversion.grids.at(0));
+}
+
+/// Vertices in the order of their coordinates.
+class Collector : public ColoredSink {
+ public:
+  void point(const Vec3d& position, const Vec3d& color) override {
+    all.push_back({position[0], position[1], position[2], color[0], color[1], color[2]});
+  }
+  void patch(const Patch& position, const Patch& color, std::int64_t rows,
+             std::int64_t columns) override {
+    for (std::int64_t i = 0; i < rows; ++i)
+      for (std::int64_t j = 0; j < columns; ++j)
+        point(at(position, {i, rows}, {j, columns}), at(color, {i, rows}, {j, columns}));
+  }
+  std::vector<std::array<double, 6>> sorted() {
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+  std::vector<std::array<double, 6>> all;
+
+ private:
+  static Vec3d at(const Patch& patch, const PatchWeights& u, const PatchWeights& v) {
+    const auto& p = patch.points;
+    return v(u(p[0][0], p[1][0], p[2][0]), u(p[0][1], p[1][1], p[2][1]),
+             u(p[0][2], p[1][2], p[2][2]));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("colours that follow the place still do on the smooth surface", "[color][property]") {
+  // Doo-Sabin refines colours as it refines positions, so what is affine stays so, everywhere. A
+  // voxel's mean is that of places at most half a voxel from its centre along each axis.
+  std::vector<test::Shape> shapes = test::shapes();
+  shapes.insert(shapes.end(), test::openShapes().begin(), test::openShapes().end());
+  constexpr int kDim = 21;
+  for (const auto& shape : shapes)
+    for (const char* boundary : {"extend", "free"})
+      for (const char* until : {"voxel", "levels=0", "levels=2"}) {
+        if (shape.closed && std::string(boundary) == "free") continue;
+        CAPTURE(shape.name, boundary, until);
+        ConvertOptions options;
+        options.until = stopRuleNamed(until);
+        options.smoothing.boundary = boundaryRuleNamed(boundary);
+        const Conversion conversion = convertColor(coloredByPlace(shape.mesh), options, kDim);
+        const Vec3d low = usedBox(shape.mesh).low / conversion.report.voxelSize;
+        double furthest = 0;
+        std::size_t far = 0;
+        for (auto voxel = colorOf(conversion).cbeginValueOn(); voxel; ++voxel) {
+          const Coord at = voxel.getCoord();
+          const Vec3d expected = (Vec3d(at.x(), at.y(), at.z()) - low) / kDim;
+          const Vec3d found(voxel->x(), voxel->y(), voxel->z());
+          const double off =
+              (found - expected.cwiseMax(0).cwiseMin(1)).cwiseAbs().maxCoeff() * kDim;
+          far += off > 0.501;
+          furthest = std::max(furthest, off);
+        }
+        // Voxels that no sample falls into have the mean of their neighbours': few along a
+        // boundary, where vertex conversion goes deeper than it must; more that polygons only
+        // graze.
+        const bool sampled = std::string(until) == "voxel";
+        CHECK(furthest < 1.6);
+        CHECK(far <= colorOf(conversion).activeVoxelCount() / (sampled ? 10 : 5));
+      }
+}
+
+TEST_CASE("the middle of a face keeps the face's colour", "[color][golden]") {
+  PolygonMesh cube = test::cube();
+  for (int f = 0; f < 6; ++f)
+    cube.faceColors.push_back(Vec3d(f / 5.0, 1 - f / 5.0, 0.5).cast<float>());
+  const Conversion conversion = convertColor(cube, {}, 200);
+  for (Index f = 0; f < 6; ++f) {
+    // The surface touches the middles of the cube's faces, flat.
+    const Vec3d centre = test::faceCentroid(cube, f) / conversion.report.voxelSize;
+    const auto found =
+        colorOf(conversion)
+            .tree()
+            .getValue(Coord(static_cast<int>(centre.x()), static_cast<int>(centre.y()),
+                            static_cast<int>(centre.z())));
+    CAPTURE(f);
+    CHECK(found.x() == Approx(f / 5.0).margin(0.01));
+    CHECK(found.y() == Approx(1 - f / 5.0).margin(0.01));
+    CHECK(found.z() == Approx(0.5).margin(1e-5));
+  }
+}
+
+TEST_CASE("the colours of points come before those of faces", "[color]") {
+  PolygonMesh cube = test::cube();
+  cube.pointColors.assign(8, Vec3f(0, 1, 0));
+  cube.faceColors.assign(6, Vec3f(1, 0, 0));
+  const Conversion conversion = convertColor(cube, {}, 20);
+  for (auto voxel = colorOf(conversion).cbeginValueOn(); voxel; ++voxel)
+    CHECK(*voxel == openvdb::Vec3f(0, 1, 0));
+}
+
+TEST_CASE("vertices and colours have the same bits however the mesh is cut", "[color][property]") {
+  std::vector<test::Shape> shapes = test::shapes();
+  shapes.insert(shapes.end(), test::openShapes().begin(), test::openShapes().end());
+  for (const auto& shape : shapes)
+    for (const BoundaryRule rule : {BoundaryRule::kExtend, BoundaryRule::kFree}) {
+      CAPTURE(shape.name);
+      PolygonMesh mesh = coloredByPlace(shape.mesh);
+      for (Vec3d& p : mesh.points) p = 4 * p.cwiseProduct(Vec3d(1, 1.1, 0.9));
+      const SubdivisionLevel base = baseLevel(mesh, rule);
+      const std::vector<Vec3d> colors = cornerColors(mesh);
+      Collector whole, parts;
+      std::vector<Index> all;
+      for (Index f = 0; f < mesh.faceCount(); ++f) all.push_back(f);
+      ColoredSurface(base, colors).emit(all, whole);
+      ColoredSurface surface(base, colors);
+      for (const Index f : all) surface.emit(std::array{f}, parts);
+      CHECK(whole.all.size() >= mesh.cornerCount());
+      CHECK(whole.sorted() == parts.sorted());
+    }
+}
+
+TEST_CASE("a coloured mesh gives the same bytes for any number of threads", "[color][parallel]") {
+  const auto bytes = [](int threads) {
+    ConvertOptions options;
+    options.run.threads = threads;
+    const Conversion conversion = convertColor(coloredByPlace(test::torusGrid(12, 6)), options, 60);
+    std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
+    writeGrids(stream, conversion);
+    return stream.str();
+  };
+  CHECK(bytes(1) == bytes(8));
+}
+
+TEST_CASE("a voxel has the mean of its samples, or that of its neighbours", "[color]") {
+  openvdb::MaskTree voxels;
+  for (const Coord& voxel : {Coord(7, 0, 0), Coord(8, 0, 0), Coord(9, 1, 0), Coord(40, 0, 0)})
+    voxels.setValueOn(voxel);
+  ColorSums sums(voxels);
+  ColorSums::Writer writer(sums);
+  writer.add(Vec3d(7.4, -0.5, 0.2), Vec3d(1, 0, 0.25));
+  writer.add(Vec3d(6.5, 0, 0), Vec3d(0, 0, 0.25));
+  writer.add(Vec3d(7, 0, 0), Vec3d(9, -1, 0.25));  // clamped
+  writer.add(Vec3d(7.5, 5, 0), Vec3d(0, 1, 0));    // in no black voxel
+  writer.add(Vec3d(1000, 5, 0), Vec3d(0, 1, 0));
+  sums.fillGaps();
+  const openvdb::Vec3f mean(2.0F / 3, 0, 0.25F);
+  CHECK((sums.colorOf({7, 0, 0}) - mean).length() < 1e-6F);
+  CHECK((sums.colorOf({8, 0, 0}) - mean).length() < 2e-6F);
+  CHECK((sums.colorOf({9, 1, 0}) - mean).length() < 2e-6F);
+  CHECK(sums.colorOf({40, 0, 0}) == openvdb::Vec3f(0.8F));
+}

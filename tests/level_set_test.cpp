@@ -1,0 +1,268 @@
+// The grid `surface`, from mesh to level set.
+
+#include "libvox/core/error.h"
+#include "libvox/pipeline/convert.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "tests/shapes.h"
+#include "tests/spline_torus.h"
+
+#include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Diagnostics.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace vox;
+using Catch::Contains;
+using openvdb::Coord;
+
+namespace {
+
+Scene sceneOf(std::vector<PolygonMesh> meshes) {
+  Scene scene;
+  for (PolygonMesh& mesh : meshes) {
+    const std::string name = "object " + std::to_string(scene.objects.size() + 1);
+    scene.objects.push_back({name, std::move(mesh)});
+  }
+  return scene;
+}
+
+ConvertOptions surfaceAt(double voxelSize) {
+  ConvertOptions options;
+  options.voxelSize = voxelSize;
+  options.grids = std::vector{GridKind::kSurface};
+  return options;
+}
+
+openvdb::FloatGrid::ConstPtr surfaceOf(const Conversion& conversion) {
+  return openvdb::gridConstPtrCast<openvdb::FloatGrid>(
+      openvdb::GridBase::ConstPtr(conversion.grids.at(0)));
+}
+
+openvdb::FloatGrid::ConstPtr levelSet(std::vector<PolygonMesh> meshes, double voxelSize) {
+  return surfaceOf(convert(sceneOf(std::move(meshes)), surfaceAt(voxelSize)));
+}
+
+Vec3d worldOf(const openvdb::FloatGrid& grid, const Coord& voxel) {
+  return Vec3d(grid.indexToWorld(voxel).asPointer());
+}
+
+float valueAt(const openvdb::FloatGrid& grid, const Vec3d& world) {
+  const auto index = grid.worldToIndex(openvdb::Vec3d(world.data()));
+  return grid.tree().getValue(Coord::round(index));
+}
+
+PolygonMesh moved(const PolygonMesh& mesh, const Vec3d& shift, double factor = 1) {
+  return test::together({}, mesh, shift, factor);
+}
+
+/// Points of the limit surface: the centroids of the faces of a deep level.
+std::vector<Vec3d> limitSamples(const PolygonMesh& mesh, int levels) {
+  const PolygonMesh fine = subdivide(baseLevel(mesh), levels).mesh;
+  std::vector<Vec3d> samples;
+  for (Index f = 0; f < fine.faceCount(); ++f) samples.push_back(test::faceCentroid(fine, f));
+  return samples;
+}
+
+double distanceTo(const std::vector<Vec3d>& samples, const Vec3d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3d& s : samples) least = std::min(least, (s - p).squaredNorm());
+  return std::sqrt(least);
+}
+
+}  // namespace
+
+TEST_CASE("distances to a torus are those of its spline within 0.05 voxels rms, with their sign",
+          "[level-set][golden]") {
+  const test::SplineTorus torus(12, 8);
+  for (const double size : {1.0 / 10, 1.0 / 50}) {
+    for (const double band : {3.0, 6.0}) {
+      ConvertOptions options = surfaceAt(size);
+      options.volume.band = band;
+      const Conversion conversion = convert(sceneOf({test::torusGrid(12, 8)}), options);
+      const auto grid = surfaceOf(conversion);
+      CHECK(grid->background() == Approx(band * size));
+      double sum = 0;
+      double largest = 0;
+      int count = 0;
+      int seen = 0;
+      for (auto value = grid->cbeginValueOn(); value; ++value) {
+        if (++seen % (size < 0.05 ? 101 : 7) != 0) continue;
+        const double truth = torus.distance(worldOf(*grid, value.getCoord()));
+        const double error = (double{*value} - truth) / size;
+        sum += error * error;
+        if (std::abs(truth) < size) largest = std::max(largest, std::abs(error));
+        ++count;
+      }
+      CAPTURE(size, band, count, largest);
+      CHECK(count > 300);
+      CHECK(std::sqrt(sum / count) <= 0.05);
+      CHECK(largest <= 0.05);  // farther off, meshToVolume itself errs by up to 0.2 in places
+    }
+  }
+}
+
+TEST_CASE("distances around extraordinary vertices and faces are as exact", "[level-set]") {
+  for (const auto& mesh : {test::cube(), test::prism(7), test::pyramid(6)}) {
+    const auto grid = levelSet({mesh}, 0.05);
+    constexpr int kLevels = 7;
+    const std::vector<Vec3d> samples = limitSamples(mesh, kLevels);
+    double largest = 0;
+    int seen = 0;
+    for (auto value = grid->cbeginValueOn(); value; ++value) {
+      // Farther than two voxels a sample in place of the surface makes no difference.
+      if (std::abs(*value) < 0.1 || ++seen % 53 != 0) continue;
+      const double truth = distanceTo(samples, worldOf(*grid, value.getCoord()));
+      largest = std::max(largest, std::abs(std::abs(double{*value}) - truth) / 0.05);
+    }
+    CHECK(seen > 2000);
+    CHECK(largest < 0.06);
+  }
+}
+
+TEST_CASE("the level set of a closed mesh is sound", "[level-set][property]") {
+  for (const auto& shape : test::shapes()) {
+    if (!shape.closed) continue;
+    CAPTURE(shape.name);
+    const auto grid = levelSet({shape.mesh}, 0.04);
+    CHECK(grid->getName() == "surface");
+    CHECK(grid->getGridClass() == openvdb::GRID_LEVEL_SET);
+    CHECK(openvdb::tools::checkLevelSet(*grid) == "");
+    CHECK(valueAt(*grid, Vec3d(100, 100, 100)) == grid->background());
+    float lowest = 1;
+    for (auto value = grid->cbeginValueOn(); value; ++value) lowest = std::min(lowest, *value);
+    CHECK(lowest < 0);
+    for (auto value = grid->cbeginValueOff(); value; ++value)
+      REQUIRE(std::abs(*value) == grid->background());
+  }
+}
+
+TEST_CASE("overlapping objects and components are united", "[level-set]") {
+  const PolygonMesh a = test::cube();
+  const PolygonMesh b = moved(a, Vec3d(1, 0.3, 0));
+  const auto gridA = levelSet({a}, 0.05);
+  const auto gridB = levelSet({b}, 0.05);
+  for (const auto& both :
+       {levelSet({a, b}, 0.05), levelSet({test::together(a, b, Vec3d(0, 0, 0))}, 0.05)}) {
+    int inBoth = 0;
+    for (auto value = both->cbeginValueOn(); value; ++value) {
+      const Coord at = value.getCoord();
+      REQUIRE(*value == std::min(gridA->tree().getValue(at), gridB->tree().getValue(at)));
+      ++inBoth;
+    }
+    CHECK(inBoth > 10000);
+    CHECK(valueAt(*both, Vec3d(0.5, 0.1, 0)) == -both->background());
+  }
+}
+
+TEST_CASE("a component that faces inward is taken out, and what lies in it is put back",
+          "[level-set]") {
+  const PolygonMesh cube = test::cube();
+  PolygonMesh all =
+      test::together(moved(cube, Vec3d(0, 0, 0), 4),
+                     test::insideOut(moved(cube, Vec3d(0, 0, 0), 2.5)), Vec3d(0, 0, 0));
+  all = test::together(all, cube, Vec3d(0, 0, 0));
+  for (const auto& grid :
+       {levelSet({all}, 0.1), levelSet({moved(cube, Vec3d(0, 0, 20)), all}, 0.1)}) {
+    CHECK(valueAt(*grid, Vec3d(5, 0, 0)) > 0);
+    CHECK(valueAt(*grid, Vec3d(3.2, 0, 0)) < 0);
+    CHECK(valueAt(*grid, Vec3d(1.7, 0, 0)) > 0);
+    CHECK(valueAt(*grid, Vec3d(0, 0, 0)) < 0);
+    // The cube passes through the centres of its faces.
+    CHECK(valueAt(*grid, Vec3d(2.4, 0, 0)) == Approx(0.1).margin(0.01));
+    CHECK(valueAt(*grid, Vec3d(2.7, 0, 0)) == Approx(-0.2).margin(0.01));
+    CHECK(valueAt(*grid, Vec3d(0, 1.1, 0)) == Approx(0.1).margin(0.01));
+  }
+}
+
+TEST_CASE("an open mesh is a sheet one voxel thick, or distances without sign, or an error",
+          "[level-set]") {
+  PolygonMesh flat = test::sheet(4, 4);
+  for (Vec3d& p : flat.points) p.z() = 0.013;
+  ConvertOptions options = surfaceAt(0.1);
+  const Conversion sheet = convert(sceneOf({flat}), options);
+  CHECK_THAT(sheet.report.warnings.at(0), Contains("has no inside"));
+  options.volume.openMesh = OpenMesh::kUnsigned;
+  const auto distances = surfaceOf(convert(sceneOf({flat}), options));
+  CHECK(surfaceOf(sheet)->getGridClass() == openvdb::GRID_LEVEL_SET);
+  CHECK(distances->getGridClass() == openvdb::GRID_UNKNOWN);
+  for (const auto& grid : {surfaceOf(sheet), distances}) {
+    CHECK(grid->background() == Approx(0.3));
+    CHECK(grid->activeVoxelCount() > 1000);
+    for (auto value = grid->cbeginValueOff(); value; ++value) REQUIRE(*value == grid->background());
+  }
+  for (int k = -2; k <= 2; ++k) {
+    const Vec3d at(2, 2, 0.1 * k);
+    const double distance = std::abs(0.1 * k - 0.013);
+    CHECK(valueAt(*distances, at) == Approx(distance).margin(1e-6));
+    CHECK(valueAt(*surfaceOf(sheet), at) == Approx(distance - 0.05).margin(1e-6));
+  }
+  options.volume.openMesh = OpenMesh::kError;
+  CHECK_THROWS_AS(convert(sceneOf({flat}), options), MeshError);
+}
+
+TEST_CASE("an open object beside a closed one leaves it its sign", "[level-set]") {
+  for (const OpenMesh policy : {OpenMesh::kSurface, OpenMesh::kUnsigned}) {
+    ConvertOptions options = surfaceAt(0.1);
+    options.volume.openMesh = policy;
+    const Conversion conversion =
+        convert(sceneOf({test::sheet(4, 4), moved(test::cube(), Vec3d(9, 0, 0))}), options);
+    CHECK(valueAt(*surfaceOf(conversion), Vec3d(9, 0, 0)) == -surfaceOf(conversion)->background());
+    CHECK(valueAt(*surfaceOf(conversion), Vec3d(10.1, 0, 0)) > 0);
+  }
+}
+
+TEST_CASE("the polygons of a level have their own level set", "[level-set]") {
+  ConvertOptions options = surfaceAt(0.1);
+  options.until = StopRule{0};
+  const auto grid = surfaceOf(convert(sceneOf({test::cube()}), options));
+  CHECK(valueAt(*grid, Vec3d(0.9, 0.9, 0.9)) == Approx(-0.1).margin(1e-5));
+  CHECK(valueAt(*grid, Vec3d(0, 1.2, 0)) == Approx(0.2).margin(1e-5));
+}
+
+TEST_CASE("a level set needs no voxels, and says nothing of them", "[level-set]") {
+  const Conversion alone = convert(sceneOf({test::cube()}), surfaceAt(0.1));
+  CHECK(alone.report.activeVoxels == surfaceOf(alone)->activeVoxelCount());
+  CHECK((*alone.grids[0])["vox_options"] != nullptr);
+  CHECK((*alone.grids[0])["vox_guarantee"] == nullptr);
+  ConvertOptions options = surfaceAt(0.1);
+  options.grids = std::vector{GridKind::kSurface, GridKind::kDensity};
+  const Conversion both = convert(sceneOf({test::cube()}), options);
+  CHECK(both.report.activeVoxels == both.grids[1]->activeVoxelCount());
+  CHECK((*both.grids[0])["vox_guarantee"] != nullptr);
+}
+
+TEST_CASE("any number of threads makes the same level set", "[level-set][parallel]") {
+  const Scene scene = sceneOf({test::torusGrid(24, 12), test::insideOut(test::prism(5)),
+                               moved(test::sheet(3, 3), Vec3d(0.4, 0, 0))});
+  const auto bytes = [&](int threads) {
+    ConvertOptions options = surfaceAt(0.03);
+    options.run.threads = threads;
+    std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
+    writeGrids(stream, convert(scene, options));
+    return stream.str();
+  };
+  const std::string one = bytes(1);
+  for (const int threads : {2, 8, 8}) CHECK(bytes(threads) == one);
+}
+
+TEST_CASE("level sets that make no sense or do not fit are refused", "[level-set][error]") {
+  for (const double band : {0.5, 1e4, -1.0, std::nan("")}) {
+    ConvertOptions options = surfaceAt(0.1);
+    options.volume.band = band;
+    CHECK_THROWS_AS(convert(sceneOf({test::cube()}), options), UsageError);
+  }
+  for (const double tolerance : {0.0, 1e-9, 100.0}) {
+    ConvertOptions options = surfaceAt(0.1);
+    options.volume.tolerance = tolerance;
+    CHECK_THROWS_AS(convert(sceneOf({test::cube()}), options), UsageError);
+  }
+  ConvertOptions options = surfaceAt(0.0005);
+  options.run.maxMemory = std::uint64_t{1} << 28;
+  CHECK_THROWS_AS(convert(sceneOf({test::cube()}), options), LimitError);
+}

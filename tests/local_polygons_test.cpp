@@ -1,0 +1,263 @@
+#include "libvox/subdivide/local_polygons.h"
+
+#include "libvox/grid/transform.h"
+#include "libvox/localize/partition.h"
+#include "libvox/mesh/validate.h"
+#include "libvox/prepare/repair.h"
+#include "libvox/subdivide/doo_sabin.h"
+#include "tests/shapes.h"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <random>
+
+using namespace vox;
+
+namespace {
+
+/// Joins points of the same bits.
+class Welder : public PolygonSink {
+ public:
+  PolygonMesh mesh;
+
+  void polygons(const PolygonMesh& piece) override {
+    std::vector<Index> face;
+    for (Index f = 0; f < piece.faceCount(); ++f) {
+      face.clear();
+      for (const Index v : piece.face(f)) face.push_back(numberOf(piece.points[v]));
+      mesh.addFace(face);
+    }
+  }
+
+ private:
+  Index numberOf(const Vec3d& p) {
+    const auto [entry, isNew] = numbers_.try_emplace({p.x(), p.y(), p.z()}, mesh.pointCount());
+    if (isNew) mesh.points.push_back(p);
+    return entry->second;
+  }
+  std::map<std::array<double, 3>, Index> numbers_;
+};
+
+PolygonMesh refined(const SubdivisionLevel& base, const std::vector<VertexDepth>& depths,
+                    Index submeshFaces, const DepthRule* rule = nullptr) {
+  Welder welder;
+  LocalPolygons polygons(base);
+  const Partition partition = coverGreedily(base.mesh, base.adjacency, submeshFaces);
+  for (Index s = 0; s < partition.size(); ++s)
+    polygons.emit(partition.submesh(s), depths, rule, welder);
+  return welder.mesh;
+}
+
+SubdivisionLevel prepared(const PolygonMesh& mesh, BoundaryRule rule) {
+  RepairReport report;
+  return baseLevel(repair(mesh, {}, report), rule);
+}
+
+std::vector<VertexDepth> uniform(const SubdivisionLevel& base, int k) {
+  const auto depth = static_cast<std::uint8_t>(k);
+  return {base.mesh.cornerCount(), VertexDepth{depth, depth}};
+}
+
+/// Deep and shallow beside each other; of regular vertices along u and v apart.
+std::vector<VertexDepth> randomDepths(const SubdivisionLevel& base, int most, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> level(0, most);
+  const auto next = [&] { return static_cast<std::uint8_t>(level(random)); };
+  const auto regular = regularCorners(base);
+  std::vector<VertexDepth> depths;
+  for (const std::uint8_t isRegular : regular) {
+    const std::uint8_t k = next();
+    depths.push_back({k, isRegular ? next() : k});
+  }
+  return depths;
+}
+
+/// Every shape, with the boundary rules that it can have.
+template <class Check>
+void forShapes(Check&& check) {
+  for (const auto* shapes : {&test::shapes(), &test::openShapes()})
+    for (const auto& shape : *shapes)
+      for (const auto rule : {BoundaryRule::kExtend, BoundaryRule::kFree}) {
+        if (shape.closed && rule == BoundaryRule::kFree) continue;
+        CAPTURE(shape.name, rule == BoundaryRule::kFree);
+        check(prepared(shape.mesh, rule));
+      }
+  const SubdivisionLevel cone = prepared(test::pyramid(60), BoundaryRule::kExtend);
+  CAPTURE("cone");
+  check(cone);
+}
+
+std::size_t boundaryEdges(const PolygonMesh& mesh) {
+  const Adjacency adjacency = buildAdjacency(mesh);
+  return static_cast<std::size_t>(std::count(adjacency.twin.begin(), adjacency.twin.end(), kNone));
+}
+
+}  // namespace
+
+TEST_CASE("at one depth everywhere, local polygons are the level of global Doo-Sabin",
+          "[subdivide][localize][property]") {
+  forShapes([](const SubdivisionLevel& base) {
+    for (const int levels : {1, 2, 4}) {
+      CAPTURE(levels);
+      const SubdivisionLevel global = subdivide(base, levels);
+      const PolygonMesh local = refined(base, uniform(base, levels - 1), 3);
+      CHECK(local.faceCount() == global.mesh.faceCount());
+      CHECK(local.cornerCount() == global.mesh.cornerCount());
+      const Box extent = [&] {
+        Box box;
+        for (const Vec3d& p : base.mesh.points) box.add(p);
+        return box;
+      }();
+      CHECK(test::samePoints(local.points, global.mesh.points, 1e-12 * extent.longestSide()));
+      CHECK(boundaryEdges(local) == boundaryEdges(global.mesh));
+    }
+  });
+}
+
+TEST_CASE("whatever the depths, the polygons have no gap", "[subdivide][localize][property]") {
+  std::uint32_t seed = 0;
+  forShapes([&](const SubdivisionLevel& base) {
+    const SubdivisionLevel first = subdivide(base, 1);
+    const auto characteristic = test::eulerCharacteristic(first.mesh);
+    const std::size_t loops = boundaryLoops(first.mesh, first.adjacency).size();
+    for (int i = 0; i < 3; ++i) {
+      CAPTURE(++seed);
+      const auto depths = randomDepths(base, 4, seed);
+      const PolygonMesh mesh = refined(base, depths, 3);
+      CHECK_NOTHROW(requireManifold(mesh, buildAdjacency(mesh)));
+      CHECK(test::eulerCharacteristic(mesh) == characteristic);
+      const Adjacency adjacency = buildAdjacency(mesh);
+      CHECK(boundaryLoops(mesh, adjacency).size() == loops);
+      if (loops == 0) CHECK(boundaryEdges(mesh) == 0);
+
+      // However the surface is cut up, faces have the same bits.
+      const PolygonMesh whole = refined(base, depths, 100000);
+      CHECK(whole.faceCount() == mesh.faceCount());
+      CHECK(test::samePoints(whole.points, mesh.points, 0));
+    }
+  });
+}
+
+TEST_CASE("polygons as fine as a rule says have no gap, thin parts with fewer vertices included",
+          "[subdivide][localize][property]") {
+  std::size_t saved = 0;
+  for (const StopRule& until :
+       {StopRule{{}, {}, {}, 0.05}, StopRule{{}, 4.0}, StopRule{{}, {}, 8.0}})
+    forShapes([&](SubdivisionLevel base) {
+      CAPTURE(stopRuleName(until));
+      for (Vec3d& p : base.mesh.points) p *= 60;
+      const SubdivisionLevel first = subdivide(base, 1);
+      const DepthRule rule(until);
+      std::vector<VertexDepth> depths(base.mesh.cornerCount());
+      LocalPolygons polygons(base);
+      const Partition partition = coverGreedily(base.mesh, base.adjacency, 3);
+      for (Index s = 0; s < partition.size(); ++s)
+        polygons.findDepths(partition.submesh(s), rule, depths);
+      const PolygonMesh mesh = refined(base, depths, 3, &rule);
+      const Adjacency adjacency = buildAdjacency(mesh);
+      CHECK_NOTHROW(requireManifold(mesh, adjacency));
+      CHECK(test::eulerCharacteristic(mesh) == test::eulerCharacteristic(first.mesh));
+      CHECK(boundaryLoops(mesh, adjacency).size() ==
+            boundaryLoops(first.mesh, first.adjacency).size());
+      saved += mesh.pointCount() < refined(base, depths, 3).pointCount();
+    });
+  CHECK(saved > 10);
+}
+
+namespace {
+
+/// Largest L-inf diameter of the faces.
+double largestDiameter(const PolygonMesh& mesh) {
+  double largest = 0;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+    for (const Index a : mesh.face(f))
+      for (const Index b : mesh.face(f))
+        largest = std::max(largest, (mesh.points[a] - mesh.points[b]).lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
+/// Distance of p from a triangle, by its nearest point among plane, sides and corners.
+double distanceFrom(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const auto fromSide = [&](const Vec3d& s, const Vec3d& t) {
+    const double length = (t - s).squaredNorm();
+    const double at = length > 0 ? std::clamp((p - s).dot(t - s) / length, 0.0, 1.0) : 0;
+    return (p - s - at * (t - s)).norm();
+  };
+  const double rim = std::min({fromSide(a, b), fromSide(b, c), fromSide(c, a)});
+  const Vec3d n = (b - a).cross(c - a);
+  if (n.norm() == 0) return rim;
+  const auto inside = [&](const Vec3d& s, const Vec3d& t) {
+    return (t - s).cross(p - s).dot(n) >= 0;
+  };
+  const bool above = inside(a, b) && inside(b, c) && inside(c, a);
+  return above ? std::abs((p - a).dot(n)) / n.norm() : rim;
+}
+
+/// Largest distance of points from the faces of a mesh, cut into fans both ways round: the smaller
+/// of the two, since either may be how the faces are cut.
+double farthest(const std::vector<Vec3d>& points, const PolygonMesh& mesh) {
+  double farthest = 0;
+  for (const Vec3d& p : points) {
+    double nearest = 1e9;
+    for (Index f = 0; f < mesh.faceCount(); ++f) {
+      const auto face = mesh.face(f);
+      const std::size_t n = face.size();
+      for (std::size_t start = 0; start < std::min<std::size_t>(n, 2); ++start)
+        for (std::size_t i = 1; i + 1 < n; ++i)
+          nearest = std::min(
+              nearest, distanceFrom(p, mesh.points[face[start]], mesh.points[face[(start + i) % n]],
+                                    mesh.points[face[(start + i + 1) % n]]));
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+PolygonMesh refinedTo(const SubdivisionLevel& base, const StopRule& until) {
+  const DepthRule rule(until);
+  std::vector<VertexDepth> depths(base.mesh.cornerCount());
+  std::vector<Index> all(base.mesh.faceCount());
+  std::iota(all.begin(), all.end(), Index{0});
+  LocalPolygons(base).findDepths(all, rule, depths);
+  return refined(base, depths, 100000, &rule);
+}
+
+}  // namespace
+
+TEST_CASE("no face is larger than the rule says", "[subdivide][property]") {
+  forShapes([](SubdivisionLevel base) {
+    for (Vec3d& p : base.mesh.points) p *= 30;
+    for (const double limit : {20.0, 3.0}) {
+      CAPTURE(limit);
+      CHECK(largestDiameter(refinedTo(base, StopRule{{}, limit})) <= limit * (1 + 1e-12));
+    }
+  });
+}
+
+TEST_CASE("the polygons are as near the smooth surface as the rule says", "[subdivide][property]") {
+  double most = 0;
+  for (const PolygonMesh& mesh :
+       {test::cube(), test::tetrahedron(), test::prism(7), test::pyramid(9), test::dodecahedron(),
+        test::openFan(3, 5), test::sheet(3, 2)}) {
+    SubdivisionLevel base = prepared(mesh, BoundaryRule::kExtend);
+    for (Vec3d& p : base.mesh.points) p *= 20;
+    // The centroid of a face lies on the smooth surface.
+    const PolygonMesh deep = subdivide(base, 5).mesh;
+    std::vector<Vec3d> surface;
+    const Index step = 1 + deep.faceCount() / 400;
+    for (Index f = 0; f < deep.faceCount(); f += step)
+      if (deep.faceSize(f) == 4) surface.push_back(test::faceCentroid(deep, f));
+    for (const double limit : {1.0, 0.2}) {
+      CAPTURE(limit, mesh.faceCount());
+      const double distance = farthest(surface, refinedTo(base, StopRule{{}, {}, {}, limit}));
+      CHECK(distance <= limit);
+      most = std::max(most, distance / limit);
+    }
+  }
+  CHECK(most > 0.2);  // the bound is not idle
+}

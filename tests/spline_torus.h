@@ -1,0 +1,37 @@
+#pragma once
+
+#include "libvox/core/types.h"
+
+#include <vector>
+
+namespace vox::test {
+
+/// The limit surface of torusGrid(major, minor) in closed form: a biquadratic B-spline, periodic in
+/// both directions, wound outward.
+class SplineTorus {
+ public:
+  SplineTorus(int major, int minor);
+
+  Vec3d at(double u, double v) const;  ///< u in [0, major), v in [0, minor)
+  Vec3d normalAt(double u, double v) const;
+
+  /// Volume inside: the integral of a polynomial over each patch, exact by Gauss' rule.
+  double volume() const;
+
+  /// Distance to the surface, positive outside, of a point near it: from the nearest of a dense
+  /// sample by Newton's method.
+  double distance(const Vec3d& point) const;
+
+ private:
+  struct Frame {
+    Vec3d at, du, dv, duu, duv, dvv;
+  };
+  Frame frame(double u, double v) const;
+
+  int major_, minor_;
+  std::vector<Vec3d> controls_;
+  static constexpr int kSamples = 4;  // per patch and direction
+  std::vector<Vec3d> samples_;
+};
+
+}  // namespace vox::test
