@@ -2,6 +2,7 @@
 
 #include "apps/vox/command.h"
 #include "apps/vox/interrupt.h"
+#include "apps/vox/manual.h"
 #include "apps/vox/suggest.h"
 #include "libvox/core/error.h"
 #include "libvox/core/progress.h"
@@ -86,6 +87,13 @@ int run(int argc, char** argv) {
   const std::vector<std::pair<const char*, Action>> actions = {
       {"convert", addConvert(app)}, {"subdivide", addSubdivide(app)}, {"info", addInfo(app)},
       {"diff", addDiff(app)},       {"check", addCheck(app)},         {"render", addRender(app)}};
+
+  const auto print = [&app](const std::string& flag, std::string (*text)(const CLI::App&)) {
+    app.add_flag_callback(flag, [&app, text] { throw CLI::CallForVersion(text(app), 0); })
+        ->group("");  // not in --help
+  };
+  print("--man", manualPage);
+  print("--bash-completion", bashCompletion);
 
   try {
     app.parse(argc, argv);
