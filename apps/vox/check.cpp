@@ -4,6 +4,7 @@
 #include "apps/vox/options.h"
 #include "apps/vox/verify.h"
 #include "libvox/core/error.h"
+#include "libvox/core/names.h"
 #include "libvox/core/parallel.h"
 #include "libvox/inspect/components.h"
 #include "libvox/inspect/lint.h"
