@@ -145,7 +145,7 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
           "keep one of some limits: levels=K steps (0: the polygons of the input), faces of "
           "diameter=D voxels, angle=DEG between adjacent ones, within flatness=D voxels of "
           "the smooth surface (default: the scene's, or voxel)")
-      ->type_name("voxel|LIMIT[,LIMIT...]")
+      ->type_name("voxel|levels=K|diameter=D|angle=DEG|flatness=D")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
       ->group("Voxels");
