@@ -174,6 +174,7 @@ VisibleGrids look(std::span<const GridBase::Ptr> grids, const VisibleOptions& op
       throw InputError("level set " + shown->getName() +
                        " has voxels that are no cubes; resample it first");
     visible.levelSet = asFloats(shown);
+    visible.levelSet->tree().readNonresidentBuffers();
     visible.boxes = boxesOf(visible.levelSet->tree());
   } else {
     visible.voxels = solidVoxels(shown, options.threshold);
