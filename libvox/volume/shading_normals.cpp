@@ -77,35 +77,28 @@ Heights heightsAround(Voxels& voxels, const HeightFrame& frame) {
   return heights;
 }
 
-/// What a plane h = a + p i + q j through columns is fitted from.
-struct Moments {
-  int n = 0, i = 0, j = 0, h = 0, ii = 0, jj = 0, hh = 0, ij = 0, ih = 0, jh = 0;
+/// What a plane h = a + p i + q j through columns is fitted from: sums over them of 1, i, j, h and
+/// their products. (An array of Eigen's: plain members, added one by one, lose terms in GCC 12 with
+/// -O3.)
+using Moments = Eigen::Array<int, 10, 1>;
+enum Moment { kCount, kI, kJ, kH, kII, kJJ, kHH, kIJ, kIH, kJH };
 
-  void addColumn(int atI, int atJ, int height) {
-    add({1, atI, atJ, height, atI * atI, atJ * atJ, height * height, atI * atJ, atI * height,
-         atJ * height});
-  }
-  void add(const Moments& other) {
-    n += other.n;
-    i += other.i;
-    j += other.j;
-    h += other.h;
-    ii += other.ii;
-    jj += other.jj;
-    hh += other.hh;
-    ij += other.ij;
-    ih += other.ih;
-    jh += other.jh;
-  }
-};
+Moments momentsOf(int i, int j, int h) {
+  Moments moments;
+  moments << 1, i, j, h, i * i, j * j, h * h, i * j, i * h, j * h;
+  return moments;
+}
 
 /// Moments of the columns before, at and after the middle, along i and j.
 using Blocks = std::array<std::array<Moments, 3>, 3>;
 
 /// What the windows around a voxel hold.
 struct Windows {
+  Windows() {
+    for (auto& row : narrow) row.fill(Moments::Zero());
+  }
   Blocks narrow;
-  Moments wide;
+  Moments wide = Moments::Zero();
 };
 
 Windows windowsOf(const Heights& heights) {
@@ -116,9 +109,9 @@ Windows windowsOf(const Heights& heights) {
       const int height =
           heights[static_cast<std::size_t>(i + kReach)][static_cast<std::size_t>(j + kReach)];
       if (height == kNoHeight) continue;
-      windows.wide.addColumn(i, j, height);
+      windows.wide += momentsOf(i, j, height);
       if (std::max(std::abs(i), std::abs(j)) <= kNarrowReach)
-        windows.narrow[block(i)][block(j)].addColumn(i, j, height);
+        windows.narrow[block(i)][block(j)] += momentsOf(i, j, height);
     }
   return windows;
 }
@@ -132,18 +125,21 @@ struct Plane {
 Plane planeThrough(const Moments& m) {
   constexpr int kLeastColumns = 6;
   Plane plane;
-  if (m.n < kLeastColumns) return plane;
-  const double n = m.n;
-  const double ii = m.ii - m.i * m.i / n;
-  const double jj = m.jj - m.j * m.j / n;
-  const double ij = m.ij - m.i * m.j / n;
-  const double ih = m.ih - m.i * m.h / n;
-  const double jh = m.jh - m.j * m.h / n;
+  if (m[kCount] < kLeastColumns) return plane;
+  const double n = m[kCount];
+  const auto centred = [&](Moment product, Moment a, Moment b) {
+    return m[product] - m[a] * m[b] / n;
+  };
+  const double ii = centred(kII, kI, kI);
+  const double jj = centred(kJJ, kJ, kJ);
+  const double ij = centred(kIJ, kI, kJ);
+  const double ih = centred(kIH, kI, kH);
+  const double jh = centred(kJH, kJ, kH);
   const double determinant = ii * jj - ij * ij;
   constexpr double kLeastSpread = 1e-6;  // of integers: it is 0 or larger by far
   if (determinant < kLeastSpread) return plane;
   plane.slope = {(ih * jj - jh * ij) / determinant, (jh * ii - ih * ij) / determinant};
-  const double hh = m.hh - m.h * m.h / n;
+  const double hh = centred(kHH, kH, kH);
   const double misfit = (hh - plane.slope[0] * ih - plane.slope[1] * jh) / n;
   // Rounding alone leaves a misfit of about 1/12, half of it or less where it is lucky, and slopes
   // a variance by their spread; an edge of 45 degrees leaves three times the misfit.
@@ -158,9 +154,9 @@ Plane planeThrough(const Moments& m) {
 /// Moments of the blocks [i0, i1] x [j0, j1].
 Moments momentsOver(const Blocks& blocks, std::size_t i0, std::size_t i1, std::size_t j0,
                     std::size_t j1) {
-  Moments all;
+  Moments all = Moments::Zero();
   for (std::size_t i = i0; i <= i1; ++i)
-    for (std::size_t j = j0; j <= j1; ++j) all.add(blocks[i][j]);
+    for (std::size_t j = j0; j <= j1; ++j) all += blocks[i][j];
   return all;
 }
 
@@ -208,8 +204,8 @@ Estimate estimateIn(Voxels& voxels, const HeightFrame& frame) {
   estimate.normal[frame.u] = -alongU.mixed(0);
   estimate.normal[frame.v] = -alongV.mixed(1);
   estimate.normal.normalize();
-  estimate.columns = all.n;
-  estimate.score = all.n * std::abs(estimate.normal[frame.up]);
+  estimate.columns = all[kCount];
+  estimate.score = all[kCount] * std::abs(estimate.normal[frame.up]);
   return estimate;
 }
 
