@@ -2,6 +2,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/pipeline/convert.h"
+#include "tests/scenes.h"
 #include "tests/shapes.h"
 #include "tests/spline_torus.h"
 
@@ -16,17 +17,9 @@
 using namespace vox;
 using Catch::Contains;
 using openvdb::Coord;
+using test::sceneOf;
 
 namespace {
-
-Scene sceneOf(std::vector<PolygonMesh> meshes) {
-  Scene scene;
-  for (PolygonMesh& mesh : meshes) {
-    const std::string name = "object " + std::to_string(scene.objects.size() + 1);
-    scene.objects.push_back({name, std::move(mesh)});
-  }
-  return scene;
-}
 
 ConvertOptions solidAt(double voxelSize) {
   ConvertOptions options;

@@ -24,14 +24,8 @@ namespace {
 struct Options {
   std::string input;
   std::string output;
-  ResolutionOptions resolution;
-  SmoothingArguments smoothing;
-  VoxelizationArguments voxelization;
-  std::optional<double> weldTolerance;
-  std::optional<bool> strict;
-  SubmeshArguments submeshes;
+  ConversionArguments conversion;
   std::string grids;
-  std::string texture;
   VolumeArguments volume;
   std::string report;
   bool verify = false;
@@ -79,20 +73,9 @@ ConvertOptions parse(const Options& options) {
     throw UsageError(options.output + ": the output of vox convert must end in .vdb");
   if (!options.report.empty() && lowerExtension(options.report) != ".json")
     throw UsageError(options.report + ": the file of --report must end in .json");
-  ConvertOptions parsed;
-  parsed.dim = options.resolution.dim;
-  parsed.voxelSize = options.resolution.voxelSize;
-  parsed.smoothing = parseSmoothing(options.smoothing);
-  parsed.until = parseUntil(options.voxelization);
-  parsed.voxelize = parseVoxelize(options.voxelization);
-  parsed.separation = parseSeparation(options.voxelization);
-  parsed.weldTolerance = options.weldTolerance;
-  parsed.strict = options.strict;
+  ConvertOptions parsed = parseConversion(options.conversion, options.common.run);
   parsed.volume = parseVolume(options.volume);
-  parsed.surface = parseSubmeshes(options.submeshes);
-  parsed.run = options.common.run;
   if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
-  if (!options.texture.empty()) parsed.texture = parseTexture(options.texture);
   return parsed;
 }
 
@@ -144,11 +127,11 @@ Action addConvert(CLI::App& app) {
       ->required()
       ->type_name("OUT.vdb")
       ->group("Output");
-  addResolutionOptions(*command, options->resolution);
-  addSmoothingOptions(*command, options->smoothing);
-  addVoxelizationOptions(*command, options->voxelization);
-  addWeldOption(*command, options->weldTolerance);
-  addStrictOption(*command, options->strict);
+  addResolutionOptions(*command, options->conversion.resolution);
+  addSmoothingOptions(*command, options->conversion.smoothing);
+  addVoxelizationOptions(*command, options->conversion.voxelization);
+  addWeldOption(*command, options->conversion.weldTolerance);
+  addStrictOption(*command, options->conversion.strict);
   command
       ->add_option(
           "--grids", options->grids,
@@ -156,7 +139,7 @@ Action addConvert(CLI::App& app) {
       ->type_name("LIST")
       ->group("Output");
   command
-      ->add_option("--texture", options->texture,
+      ->add_option("--texture", options->conversion.texture,
                    "Solid texture of all objects, in the grid color: " + allTextureNames() +
                        "; with parameters: marble:scale=0.2,seed=3 (default: the scene's textures, "
                        "or the colours of the meshes)")
@@ -164,7 +147,7 @@ Action addConvert(CLI::App& app) {
       ->group("Output");
   addVolumeOptions(*command, options->volume);
   addFileOptions(*command, options->volume);
-  addSubmeshOptions(*command, options->submeshes);
+  addSubmeshOptions(*command, options->conversion.submeshes);
   command
       ->add_option("--report", options->report,
                    "Write times, counts and memory of each stage and object to a file, as JSON")

@@ -316,6 +316,22 @@ SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments) {
   return surface;
 }
 
+ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOptions& run) {
+  ConvertOptions parsed;
+  parsed.dim = arguments.resolution.dim;
+  parsed.voxelSize = arguments.resolution.voxelSize;
+  parsed.smoothing = parseSmoothing(arguments.smoothing);
+  parsed.until = parseUntil(arguments.voxelization);
+  parsed.voxelize = parseVoxelize(arguments.voxelization);
+  parsed.separation = parseSeparation(arguments.voxelization);
+  parsed.weldTolerance = arguments.weldTolerance;
+  parsed.strict = arguments.strict;
+  parsed.surface = parseSubmeshes(arguments.submeshes);
+  if (!arguments.texture.empty()) parsed.texture = parseTexture(arguments.texture);
+  parsed.run = run;
+  return parsed;
+}
+
 std::vector<GridKind> parseGrids(const std::string& names) {
   std::vector<GridKind> grids;
   std::istringstream list(names);

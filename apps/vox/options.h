@@ -5,6 +5,7 @@
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/smoothing.h"
 #include "libvox/mesh/stop_rule.h"
+#include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
 #include "libvox/pipeline/surface.h"
@@ -97,6 +98,20 @@ struct SubmeshArguments {
 void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments);
 /// @throws UsageError
 SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments);
+
+/// How a mesh or scene becomes voxels, as typed: what vox convert and vox render share.
+struct ConversionArguments {
+  ResolutionOptions resolution;
+  SmoothingArguments smoothing;
+  VoxelizationArguments voxelization;
+  std::optional<double> weldTolerance;
+  std::optional<bool> strict;
+  SubmeshArguments submeshes;
+  std::string texture;
+};
+/// What they mean; reads the file of vertices.
+/// @throws UsageError, InputError
+ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOptions& run);
 
 /// "density,mask" as grids.
 /// @throws UsageError  an unknown name

@@ -38,13 +38,7 @@ struct Options {
   int occlusionRays = 4;
   VisibleOptions visible;
   // Of meshes and scenes:
-  ResolutionOptions resolution;
-  SmoothingArguments smoothing;
-  VoxelizationArguments voxelization;
-  std::optional<double> weldTolerance;
-  std::optional<bool> strict;
-  SubmeshArguments submeshes;
-  std::string texture;
+  ConversionArguments conversion;
   std::vector<const CLI::Option*> meshOptions;  // all of these
   std::vector<const CLI::Option*> gridOptions;  // those of .vdb files
   CommonOptions common;
@@ -139,22 +133,6 @@ std::vector<GridKind> gridsFor(const RenderOptions& options, bool colored) {
   return grids;
 }
 
-ConvertOptions parseConversion(const Options& options) {
-  ConvertOptions parsed;
-  parsed.dim = options.resolution.dim;
-  parsed.voxelSize = options.resolution.voxelSize;
-  parsed.smoothing = parseSmoothing(options.smoothing);
-  parsed.until = parseUntil(options.voxelization);
-  parsed.voxelize = parseVoxelize(options.voxelization);
-  parsed.separation = parseSeparation(options.voxelization);
-  parsed.weldTolerance = options.weldTolerance;
-  parsed.strict = options.strict;
-  parsed.surface = parseSubmeshes(options.submeshes);
-  if (!options.texture.empty()) parsed.texture = parseTexture(options.texture);
-  parsed.run = options.common.run;
-  return parsed;
-}
-
 using Grids = std::vector<std::shared_ptr<openvdb::GridBase>>;
 
 Grids readGrids(const Options& options) {
@@ -185,7 +163,7 @@ int run(const Options& options) {
   ProgressBar bar(!options.common.quiet);
   Progress progress(bar.callback());
   renderOptions.progress = &progress;
-  ConvertOptions convertOptions = parseConversion(options);
+  ConvertOptions convertOptions = parseConversion(options.conversion, options.common.run);
   convertOptions.run.progress = &progress;
   Scene scene;
   if (isVdb)
@@ -261,14 +239,14 @@ void addGridOptions(CLI::App& command, Options& options) {
 
 void addMeshOptions(CLI::App& command, Options& options) {
   const std::size_t before = command.get_options().size();
-  addResolutionOptions(command, options.resolution);
-  addSmoothingOptions(command, options.smoothing);
-  addVoxelizationOptions(command, options.voxelization);
-  addWeldOption(command, options.weldTolerance);
-  addStrictOption(command, options.strict);
-  addSubmeshOptions(command, options.submeshes);
+  addResolutionOptions(command, options.conversion.resolution);
+  addSmoothingOptions(command, options.conversion.smoothing);
+  addVoxelizationOptions(command, options.conversion.voxelization);
+  addWeldOption(command, options.conversion.weldTolerance);
+  addStrictOption(command, options.conversion.strict);
+  addSubmeshOptions(command, options.conversion.submeshes);
   command
-      .add_option("--texture", options.texture,
+      .add_option("--texture", options.conversion.texture,
                   "Solid texture of all objects, as for vox convert (default: the scene's, or the "
                   "colours of the mesh)")
       ->type_name("SPEC")
