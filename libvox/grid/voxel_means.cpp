@@ -1,26 +1,24 @@
-// Sums of colours, a slot for each black voxel.
+// Sums of vectors, a slot for each black voxel.
 
-#include "libvox/volume/color_sums.h"
-
-#include "libvox/grid/voxel.h"
-#include "libvox/volume/color.h"
+#include "libvox/grid/voxel_means.h"
 
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 namespace vox {
 namespace {
 
-constexpr double kOne = 1 << 20;
+constexpr double kOne = 1 << 30;
 
-std::uint64_t fixedPoint(double value) {
-  return static_cast<std::uint64_t>((value > 0 ? std::min(value, 1.0) : 0.0) * kOne + 0.5);
+void addTo(std::int64_t& sum, std::int64_t value) {
+  std::atomic_ref(sum).fetch_add(value, std::memory_order_relaxed);
 }
 
-void addTo(std::uint64_t& sum, std::uint64_t value) {
-  std::atomic_ref(sum).fetch_add(value, std::memory_order_relaxed);
+std::int64_t fixedPoint(double value) {
+  return std::llround(std::clamp(value, -1.0, 1.0) * kOne);
 }
 
 /// How many voxels of a leaf come before one of them.
@@ -38,7 +36,7 @@ std::size_t rankIn(const openvdb::MaskTree::LeafNodeType& leaf, openvdb::Index o
 
 }  // namespace
 
-ColorSums::ColorSums(const openvdb::MaskTree& voxels) : voxels_(voxels) {
+VoxelMeans::VoxelMeans(const openvdb::MaskTree& voxels) : voxels_(voxels) {
   std::size_t slots = 0;
   firstSlots_.reserve(voxels.leafCount());
   for (auto leaf = voxels.cbeginLeaf(); leaf; ++leaf) {
@@ -48,49 +46,48 @@ ColorSums::ColorSums(const openvdb::MaskTree& voxels) : voxels_(voxels) {
   sums_.resize(slots);
 }
 
-std::uint64_t ColorSums::bytesFor(const openvdb::MaskTree& voxels) {
+std::uint64_t VoxelMeans::bytesFor(const openvdb::MaskTree& voxels) {
   constexpr std::uint64_t kPerLeaf = 48;  // of the table of first slots
   return voxels.activeVoxelCount() * sizeof(Sum) + voxels.leafCount() * kPerLeaf;
 }
 
-void ColorSums::Writer::add(const Vec3d& positionIndex, const Vec3d& color) {
-  const openvdb::Coord voxel = voxelOf(positionIndex);
+void VoxelMeans::Writer::add(const openvdb::Coord& voxel, const Vec3d& vector) {
   const openvdb::Coord origin = voxel & ~static_cast<openvdb::Int32>(Leaf::DIM - 1);
   if (leaf_ == nullptr || leaf_->origin() != origin) {
     leaf_ = leaves_.probeConstLeaf(voxel);
     if (leaf_ == nullptr) return;
-    first_ = sums_.firstSlots_.at(leaf_);
+    first_ = means_.firstSlots_.at(leaf_);
   }
   const openvdb::Index offset = Leaf::coordToOffset(voxel);
   if (!leaf_->isValueOn(offset)) return;
-  Sum& sum = sums_.sums_[first_ + rankIn(*leaf_, offset)];
-  addTo(sum.red, fixedPoint(color[0]));
-  addTo(sum.green, fixedPoint(color[1]));
-  addTo(sum.blue, fixedPoint(color[2]));
+  Sum& sum = means_.sums_[first_ + rankIn(*leaf_, offset)];
+  addTo(sum.x, fixedPoint(vector.x()));
+  addTo(sum.y, fixedPoint(vector.y()));
+  addTo(sum.z, fixedPoint(vector.z()));
   addTo(sum.count, 1);
 }
 
-const ColorSums::Sum* ColorSums::sumAt(const Leaf* leaf, const openvdb::Coord& voxel) const {
+const VoxelMeans::Sum* VoxelMeans::sumAt(const Leaf* leaf, const openvdb::Coord& voxel) const {
   if (leaf == nullptr || !leaf->isValueOn(voxel)) return nullptr;
   return &sums_[firstSlots_.at(leaf) + rankIn(*leaf, Leaf::coordToOffset(voxel))];
 }
 
-ColorSums::Sum ColorSums::meanOfNeighbours(const Accessor& leaves,
-                                           const openvdb::Coord& voxel) const {
+VoxelMeans::Sum VoxelMeans::meanOfNeighbours(const Accessor& leaves,
+                                             const openvdb::Coord& voxel) const {
   Sum sum;
   for (int n = 0; n < 27; ++n) {
     const openvdb::Coord near = voxel.offsetBy(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
     const Sum* const other = sumAt(leaves.probeConstLeaf(near), near);
     if (other == nullptr || other->count == 0) continue;
-    sum.red += other->red / other->count;
-    sum.green += other->green / other->count;
-    sum.blue += other->blue / other->count;
+    sum.x += other->x / other->count;
+    sum.y += other->y / other->count;
+    sum.z += other->z / other->count;
     ++sum.count;
   }
   return sum;
 }
 
-std::vector<ColorSums::Gap> ColorSums::gaps() const {
+std::vector<VoxelMeans::Gap> VoxelMeans::gaps() const {
   std::vector<Gap> gaps;
   std::size_t slot = 0;
   for (auto leaf = voxels_.cbeginLeaf(); leaf; ++leaf)
@@ -99,7 +96,7 @@ std::vector<ColorSums::Gap> ColorSums::gaps() const {
   return gaps;
 }
 
-void ColorSums::fillGaps() {
+void VoxelMeans::fillGaps() {
   const Accessor leaves(voxels_);
   std::vector<Gap> open = gaps();
   while (!open.empty()) {
@@ -118,14 +115,12 @@ void ColorSums::fillGaps() {
   }
 }
 
-openvdb::Vec3f ColorSums::colorOf(const openvdb::Coord& voxel) const {
+std::optional<Vec3d> VoxelMeans::meanOf(const openvdb::Coord& voxel) const {
   const Sum* const sum = sumAt(voxels_.probeConstLeaf(voxel), voxel);
-  if (sum == nullptr || sum->count == 0) return openvdb::Vec3f(kPlainColor);
-  const double scale = 1 / (kOne * static_cast<double>(sum->count));
-  const auto mean = [&](std::uint64_t total) {
-    return static_cast<float>(static_cast<double>(total) * scale);
-  };
-  return {mean(sum->red), mean(sum->green), mean(sum->blue)};
+  if (sum == nullptr || sum->count == 0) return std::nullopt;
+  const Vec3d total(static_cast<double>(sum->x), static_cast<double>(sum->y),
+                    static_cast<double>(sum->z));
+  return total / (kOne * static_cast<double>(sum->count));
 }
 
 }  // namespace vox

@@ -1,22 +1,22 @@
 #pragma once
 
 #include "libvox/core/types.h"
-#include "libvox/grid/surface_grid.h"
 
 #include <openvdb/openvdb.h>
 
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
 namespace vox {
 
-/// Mean colours of black voxels, from samples that fall into them in whatever order: the sums are
-/// integers, so neither order nor threads show.
-class ColorSums {
+/// Mean vectors of black voxels, of samples that come in whatever order: colours, or normals. The
+/// sums are integers, so neither order nor threads show. Source: DESIGN section 8.
+class VoxelMeans {
  public:
   /// @param voxels  all in leaves; must stay as they are
-  explicit ColorSums(const openvdb::MaskTree& voxels);
+  explicit VoxelMeans(const openvdb::MaskTree& voxels);
 
   /// What one needs for as many voxels and leaves, in bytes.
   static std::uint64_t bytesFor(const openvdb::MaskTree& voxels);
@@ -24,14 +24,13 @@ class ColorSums {
   /// One thread's way to the sums.
   class Writer {
    public:
-    explicit Writer(ColorSums& sums) : sums_(sums), leaves_(sums.voxels_) {}
+    explicit Writer(VoxelMeans& means) : means_(means), leaves_(means.voxels_) {}
     /// A sample; of no consequence outside black voxels.
-    /// @param positionIndex  index space, within the range of the grid
-    /// @param color          linear; clamped to 0 .. 1
-    void add(const Vec3d& positionIndex, const Vec3d& color);
+    /// @param vector  clamped to -1 .. 1
+    void add(const openvdb::Coord& voxel, const Vec3d& vector);
 
    private:
-    ColorSums& sums_;
+    VoxelMeans& means_;
     openvdb::tree::ValueAccessor<const openvdb::MaskTree> leaves_;
     const openvdb::MaskTree::LeafNodeType* leaf_ = nullptr;  // of the sample before
     std::size_t first_ = 0;                                  // its first slot
@@ -41,17 +40,17 @@ class ColorSums {
   /// takes. After the last sample.
   void fillGaps();
 
-  /// Mean colour of a black voxel; kPlainColor if no sample is anywhere near.
-  openvdb::Vec3f colorOf(const openvdb::Coord& voxel) const;
+  /// Mean of a black voxel; nothing if no sample is anywhere near.
+  std::optional<Vec3d> meanOf(const openvdb::Coord& voxel) const;
 
  private:
   using Leaf = openvdb::MaskTree::LeafNodeType;
-  /// In units of 2^-20: of 2^43 samples at least.
+  /// In units of 2^-30: of 2^33 samples at least.
   struct Sum {
-    std::uint64_t red = 0;
-    std::uint64_t green = 0;
-    std::uint64_t blue = 0;
-    std::uint64_t count = 0;
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+    std::int64_t z = 0;
+    std::int64_t count = 0;
   };
   struct Gap {
     openvdb::Coord voxel;

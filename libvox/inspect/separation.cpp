@@ -28,16 +28,8 @@ using Triangle = std::array<Index, 3>;
 
 std::vector<Triangle> trianglesOf(const PolygonMesh& mesh) {
   std::vector<Triangle> all;
-  std::vector<Vec3d> corners;
-  TriangulationReport report;
-  for (Index f = 0; f < mesh.faceCount(); ++f) {
-    corners.clear();
-    for (const Index v : mesh.face(f)) corners.push_back(mesh.points[v]);
-    const std::size_t before = all.size();
-    triangulate(corners, all, report);
-    for (std::size_t t = before; t < all.size(); ++t)
-      for (Index& corner : all[t]) corner = mesh.face(f)[corner];
-  }
+  FaceTriangulator faces;
+  for (Index f = 0; f < mesh.faceCount(); ++f) faces.add(mesh, f, all);
   return all;
 }
 

@@ -38,4 +38,14 @@ struct PolygonMesh {
   }
 };
 
+/// Appends another mesh, without its colours. Together they must have less than 2^32 - 1 elements.
+inline void append(PolygonMesh& all, const PolygonMesh& part) {
+  const Index firstPoint = all.pointCount();
+  const Index firstCorner = all.cornerCount();
+  all.points.insert(all.points.end(), part.points.begin(), part.points.end());
+  for (const Index v : part.faceVertices) all.faceVertices.push_back(firstPoint + v);
+  for (Index f = 0; f < part.faceCount(); ++f)
+    all.faceOffsets.push_back(firstCorner + part.faceOffsets[f + 1]);
+}
+
 }  // namespace vox

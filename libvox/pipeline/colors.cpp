@@ -6,7 +6,6 @@
 #include "libvox/pipeline/surface_colors.h"
 #include "libvox/subdivide/colored_surface.h"
 #include "libvox/volume/color.h"
-#include "libvox/volume/color_sums.h"
 
 #include <vector>
 
@@ -38,12 +37,14 @@ std::optional<int> sampledLevel(const ConversionWay& way) {
 void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
                      const PreparedSurface& surface, std::span<const Vec3d> colors,
                      MemoryBudget budget, const Progress& progress) {
-  budget.take(ColorSums::bytesFor(voxels) + colors.size_bytes(), "the sums of colours",
+  budget.take(VoxelMeans::bytesFor(voxels) + colors.size_bytes(), "the sums of colours",
               kScatteredAdvice);
-  ColorSums sums(voxels);
-  sampleColors(surface.base, colors, sampledLevel(surface.way), budget, progress, sums);
-  sums.fillGaps();
-  paint(color, voxels, [&](const openvdb::Coord& voxel) { return sums.colorOf(voxel); });
+  VoxelMeans means(voxels);
+  sampleColors(surface.base, colors, sampledLevel(surface.way), budget, progress, means);
+  means.fillGaps();
+  paint(color, voxels, [&](const openvdb::Coord& voxel) {
+    return asFloats(means.meanOf(voxel).value_or(Vec3d::Constant(kPlainColor)));
+  });
 }
 
 }  // namespace

@@ -67,15 +67,6 @@ std::map<int, Batch> batchesOf(std::vector<Part> parts) {
   return batches;
 }
 
-void append(PolygonMesh& all, const PolygonMesh& part) {
-  const Index firstPoint = all.pointCount();
-  const Index firstCorner = all.cornerCount();
-  all.points.insert(all.points.end(), part.points.begin(), part.points.end());
-  for (const Index v : part.faceVertices) all.faceVertices.push_back(firstPoint + v);
-  for (Index f = 0; f < part.faceCount(); ++f)
-    all.faceOffsets.push_back(firstCorner + part.faceOffsets[f + 1]);
-}
-
 class SurfaceMaker {
  public:
   SurfaceMaker(std::span<const PreparedSurface> surfaces, const VolumeOptions& options,

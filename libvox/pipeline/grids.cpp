@@ -65,12 +65,12 @@ openvdb::GridBase::Ptr makeNormals(const openvdb::MaskGrid& mask,
                                    Progress& progress) {
   constexpr const char* kAdvice = "leave it out, use larger voxels, or raise --max-memory";
   budget.take(bytesOfGrid<openvdb::Vec3STree>(mask.tree()), "the normal grid", kAdvice);
-  budget.require(VoxelSums::bytesFor(mask.activeVoxelCount(), mask.tree().leafCount()),
-                 "the normals", kAdvice);
-  VoxelSums sums(mask.tree());
+  budget.require(VoxelMeans::bytesFor(mask.tree()), "the normals", kAdvice);
+  VoxelMeans means(mask.tree());
   for (const PreparedSurface& surface : surfaces)
-    addNormals(surface.base, surface.way, progress, sums);
-  return normalGrid(mask, sums);
+    addNormals(surface.base, surface.way, progress, means);
+  means.fillGaps();
+  return normalGrid(mask, means);
 }
 
 }  // namespace

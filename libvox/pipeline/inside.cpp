@@ -56,17 +56,10 @@ std::vector<Index> facesOf(const std::vector<MeshComponent>& components, MeshCom
 PolygonMesh triangulated(const PolygonMesh& mesh) {
   PolygonMesh cut;
   cut.points = mesh.points;
-  TriangulationReport report;
-  std::vector<Vec3d> corners;
+  FaceTriangulator faces;
   std::vector<std::array<Index, 3>> triangles;
-  for (Index f = 0; f < mesh.faceCount(); ++f) {
-    const auto face = mesh.face(f);
-    corners.clear();
-    triangles.clear();
-    for (const Index v : face) corners.push_back(mesh.points[v]);
-    triangulate(corners, triangles, report);
-    for (const auto& [i, j, k] : triangles) cut.addFace(std::array{face[i], face[j], face[k]});
-  }
+  for (Index f = 0; f < mesh.faceCount(); ++f) faces.add(mesh, f, triangles);
+  for (const auto& triangle : triangles) cut.addFace(triangle);
   return cut;
 }
 

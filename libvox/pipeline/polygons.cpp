@@ -38,7 +38,7 @@ class ScanSink : public PolygonSink {
 
   void faces(const PolygonMesh& mesh, Index begin, Index end) {
     triangles_.clear();
-    for (Index f = begin; f != end; ++f) addTriangles(mesh, f);
+    for (Index f = begin; f != end; ++f) faces_.add(mesh, f, triangles_);
     report_.triangles += triangles_.size();
     const auto middle = std::stable_partition(
         triangles_.begin(), triangles_.end(),
@@ -52,20 +52,10 @@ class ScanSink : public PolygonSink {
 
   void flush() { cache_.flush(); }
 
-  PolygonReport report() const { return {report_.triangles, fans_.fanned}; }
+  PolygonReport report() const { return {report_.triangles, faces_.report().fanned}; }
 
  private:
   using Corners = std::array<Vec3d, 3>;
-
-  void addTriangles(const PolygonMesh& mesh, Index f) {
-    const auto face = mesh.face(f);
-    corners_.clear();
-    for (const Index v : face) corners_.push_back(mesh.points[v]);
-    const std::size_t first = triangles_.size();
-    triangulate(corners_, triangles_, fans_);
-    for (std::size_t t = first; t < triangles_.size(); ++t)
-      for (Index& corner : triangles_[t]) corner = face[corner];
-  }
 
   static Corners cornersOf(const PolygonMesh& mesh, const std::array<Index, 3>& triangle) {
     return {mesh.points[triangle[0]], mesh.points[triangle[1]], mesh.points[triangle[2]]};
@@ -96,10 +86,9 @@ class ScanSink : public PolygonSink {
   Separation separation_;
   const Progress& progress_;
   ScanSinks& all_;
-  std::vector<Vec3d> corners_;                   // of a face
+  FaceTriangulator faces_;
   std::vector<std::array<Index, 3>> triangles_;  // of a part
   PolygonReport report_;
-  TriangulationReport fans_;
 };
 
 void scanFaces(const PolygonMesh& mesh, Progress& progress, ScanSinks& sinks) {

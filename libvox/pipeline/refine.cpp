@@ -108,20 +108,15 @@ double partOfStep(int k, int levels) {
   return 3 * std::ldexp(1.0, 2 * (k - 1)) / (std::ldexp(1.0, 2 * levels) - 1);
 }
 
-void append(PolygonMesh& all, PolygonMesh part) {
+/// append (polygon_mesh.h), if they fit.
+void appendWithin(PolygonMesh& all, PolygonMesh part) {
   if (std::uint64_t{all.cornerCount()} + part.cornerCount() >= kNone ||
       std::uint64_t{all.pointCount()} + part.pointCount() >= kNone)
     throw LimitError("the objects together have more elements than fit in 32 bits");
-  if (all.faceCount() == 0) {
+  if (all.faceCount() == 0)
     all = std::move(part);
-    return;
-  }
-  const Index firstPoint = all.pointCount();
-  const Index firstCorner = all.cornerCount();
-  all.points.insert(all.points.end(), part.points.begin(), part.points.end());
-  for (const Index v : part.faceVertices) all.faceVertices.push_back(firstPoint + v);
-  for (Index f = 0; f < part.faceCount(); ++f)
-    all.faceOffsets.push_back(firstCorner + part.faceOffsets[f + 1]);
+  else
+    append(all, part);
 }
 
 /// Work of the stages of an object.
@@ -158,7 +153,7 @@ Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& p
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
     budget.take(2 * bytesOf(part), "the refined mesh", kAdvice);
-    append(all.mesh, std::move(part));
+    appendWithin(all.mesh, std::move(part));
   }
   return all;
 }

@@ -3,6 +3,7 @@
 #include "libvox/pipeline/surface_colors.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/voxel.h"
 #include "libvox/localize/partition.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/subdivide/colored_surface.h"
@@ -22,7 +23,7 @@
 namespace vox {
 namespace {
 
-using Writers = tbb::enumerable_thread_specific<ColorSums::Writer>;
+using Writers = tbb::enumerable_thread_specific<VoxelMeans::Writer>;
 
 /// Samples of a task, about.
 constexpr std::int64_t kSamplesPerTask = 4096;
@@ -43,30 +44,23 @@ class VertexSamples : public ColoredSink {
   explicit VertexSamples(Writers& writers) : writers_(writers) {}
 
   void point(const Vec3d& position, const Vec3d& color) override {
-    writers_.local().add(position, color);
+    writers_.local().add(voxelOf(position), color);
   }
   void patch(const Patch& position, const Patch& color, std::int64_t rows,
              std::int64_t columns) override {
     forRows(rows, columns, [&](std::int64_t row) {
       const PatchWeights across(row, rows);
-      const auto p = along(position, across);
-      const auto c = along(color, across);
-      ColorSums::Writer& writer = writers_.local();
+      const auto p = rowOf(position, across);
+      const auto c = rowOf(color, across);
+      VoxelMeans::Writer& writer = writers_.local();
       for (std::int64_t column = 0; column < columns; ++column) {
         const PatchWeights weights(column, columns);
-        writer.add(weights(p[0], p[1], p[2]), weights(c[0], c[1], c[2]));
+        writer.add(voxelOf(weights(p[0], p[1], p[2])), weights(c[0], c[1], c[2]));
       }
     });
   }
 
  private:
-  /// Control points of a row.
-  static std::array<Vec3d, 3> along(const Patch& patch, const PatchWeights& weights) {
-    const auto& p = patch.points;
-    return {weights(p[0][0], p[1][0], p[2][0]), weights(p[0][1], p[1][1], p[2][1]),
-            weights(p[0][2], p[1][2], p[2][2])};
-  }
-
   Writers& writers_;
 };
 
@@ -112,10 +106,10 @@ void sampleTriangle(std::array<Sample, 3> corners, Writers& writers) {
     const Sample left = between(a, c, row, rows);
     const Sample right = between(b, c, row, rows);
     const std::int64_t columns = stepsBetween(left, right);
-    ColorSums::Writer& writer = writers.local();
+    VoxelMeans::Writer& writer = writers.local();
     for (std::int64_t column = 0; column <= columns; ++column) {
       const Sample sample = between(left, right, column, columns);
-      writer.add(sample.position, sample.color);
+      writer.add(voxelOf(sample.position), sample.color);
     }
   });
 }
@@ -163,8 +157,8 @@ void samplePolygons(const ColoredLevel& colored, bool ofCorners, const Progress&
 
 void sampleColors(const SubdivisionLevel& base, std::span<const Vec3d> cornerColors,
                   std::optional<int> levels, const MemoryBudget& budget, const Progress& progress,
-                  ColorSums& sums) {
-  Writers writers([&] { return ColorSums::Writer(sums); });
+                  VoxelMeans& means) {
+  Writers writers([&] { return VoxelMeans::Writer(means); });
   if (!levels) return sampleVertices(base, cornerColors, progress, writers);
   const ColoredLevel level = coloredLevel(base, cornerColors, *levels, budget, progress);
   samplePolygons(level, *levels == 0, progress, writers);

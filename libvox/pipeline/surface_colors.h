@@ -2,8 +2,8 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/voxel_means.h"
 #include "libvox/subdivide/level.h"
-#include "libvox/volume/color_sums.h"
 
 #include <optional>
 #include <span>
@@ -18,6 +18,6 @@ namespace vox {
 /// @throws Cancelled
 void sampleColors(const SubdivisionLevel& base, std::span<const Vec3d> cornerColors,
                   std::optional<int> levels, const MemoryBudget& budget, const Progress& progress,
-                  ColorSums& sums);
+                  VoxelMeans& means);
 
 }  // namespace vox

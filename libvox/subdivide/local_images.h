@@ -24,6 +24,10 @@ class LocalImages {
     double diameter = 0;           ///< of its real half, with the two points on the boundary
     Vec3d mStart = Vec3d::Zero();  ///< the point on the boundary edge that leaves
     Vec3d mEnd = Vec3d::Zero();    ///< and on the one that arrives
+
+    /// Of the points beside the one at a place, counter-clockwise.
+    Index before(Index place) const { return begin + (place == 0 ? size : place) - 1; }
+    Index after(Index place) const { return begin + (place + 1 == size ? 0 : place + 1); }
   };
   /// The level-1 face across the edge of a corner, or the mirrored half face at an extended
   /// boundary.

@@ -7,17 +7,6 @@
 #include <algorithm>
 
 namespace vox {
-namespace {
-
-Index before(const LocalImages::Star& star, Index place) {
-  return star.begin + (place == 0 ? star.size : place) - 1;
-}
-Index after(const LocalImages::Star& star, Index place) {
-  return star.begin + (place + 1 == star.size ? 0 : place + 1);
-}
-
-}  // namespace
-
 void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
   images_.set(faces);
   const std::size_t starPoints = images_.starPoints().size();
@@ -183,8 +172,8 @@ void LocalSurface::splitInStar(const Corner& at, VertexSplit& split) {
   const LocalImages::Star& star = subdividedStar(at);
   const Index place = images_.placeInStar(at.slot());
   split.k0 = starImages_[star.begin + place];
-  split.kRight = starImages_[before(star, place)];
-  split.kLeft = starImages_[after(star, place)];
+  split.kRight = starImages_[star.before(place)];
+  split.kLeft = starImages_[star.after(place)];
   if (star.size == 4) split.kOpposite = starImages_[star.begin + (place ^ 2U)];
 }
 
@@ -208,7 +197,7 @@ void LocalSurface::joinStar(const Corner& at, const VertexSplit& split) {
   const LocalImages::Star& star = images_.star(at.slot());
   const Index place = images_.placeInStar(at.slot());
   const Index i = star.begin + place;
-  const Index j = before(star, place);
+  const Index j = star.before(place);
   starNear_[i] = split.l[0];
   starFar_[i] = split.l[3];
   starNear_[j] = split.r[3];

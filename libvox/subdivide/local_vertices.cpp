@@ -5,17 +5,6 @@
 #include <algorithm>
 
 namespace vox {
-namespace {
-
-Index before(const LocalImages::Star& star, Index place) {
-  return star.begin + (place == 0 ? star.size : place) - 1;
-}
-Index after(const LocalImages::Star& star, Index place) {
-  return star.begin + (place + 1 == star.size ? 0 : place + 1);
-}
-
-}  // namespace
-
 void LocalVertices::set(std::span<const Index> faces) {
   images_.set(faces);
   openFace_ = shapedFace_ = kNone;
@@ -110,8 +99,8 @@ void LocalVertices::splitK(const LocalImages::Star& star, Index number, Index pl
     return;
   }
   split.k0 = starSecond_[star.begin + place];
-  split.kRight = starSecond_[before(star, place)];
-  split.kLeft = starSecond_[after(star, place)];
+  split.kRight = starSecond_[star.before(place)];
+  split.kLeft = starSecond_[star.after(place)];
   vertex.quadK = star.size == 4;
   if (vertex.quadK) {
     split.kOpposite = starSecond_[star.begin + (place ^ 2U)];
@@ -183,7 +172,7 @@ LevelOneVertex LocalVertices::acrossR(const Corner& c) {
   const LocalImages::EdgeFace& edge = images_.edgeFace(c.slot());
   const SubdivisionLevel& base = images_.base();
   const Index other = base.adjacency.cornerFace[base.adjacency.twin[c.number]];
-  const Index place = before(star, images_.placeInStar(c.slot())) - star.begin;
+  const Index place = star.before(images_.placeInStar(c.slot())) - star.begin;
   LevelOneVertex vertex =
       inStar(images_.starNumber(c.slot()), place, base.mesh.faceSize(other) == 4);
   const Vec3d& here = images_.image(c.slot());
@@ -203,7 +192,7 @@ LevelOneVertex LocalVertices::acrossRFromNext(const Corner& c) {
   const LocalImages::EdgeFace& edge = images_.edgeFace(c.slot());
   const SubdivisionLevel& base = images_.base();
   const Index other = base.adjacency.cornerFace[base.adjacency.twin[c.number]];
-  const Index place = after(star, images_.placeInStar(c.next().slot())) - star.begin;
+  const Index place = star.after(images_.placeInStar(c.next().slot())) - star.begin;
   LevelOneVertex vertex =
       inStar(images_.starNumber(c.next().slot()), place, base.mesh.faceSize(other) == 4);
   const Vec3d& here = images_.image(c.slot());
@@ -233,8 +222,8 @@ LevelOneVertex LocalVertices::inStar(Index number, Index place, bool quadF) {
   vertex.patch.points[1][1] = vertex.at;
   if (star.size != 4) return vertex;  // at a free boundary
   vertex.patch.points[0][0] = points[star.begin + (place ^ 2U)];
-  vertex.patch.points[0][1] = points[after(star, place)];
-  vertex.patch.points[1][0] = points[before(star, place)];
+  vertex.patch.points[0][1] = points[star.after(place)];
+  vertex.patch.points[1][0] = points[star.before(place)];
   return vertex;
 }
 

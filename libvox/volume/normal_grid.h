@@ -1,14 +1,14 @@
 #pragma once
 
-#include "libvox/grid/voxel_sums.h"
+#include "libvox/grid/voxel_means.h"
 
 #include <openvdb/openvdb.h>
 
 namespace vox {
 
-/// Grid `normal`: at each voxel of the mask the direction of its sum, of length 1; background 0. A
-/// voxel that got nothing takes what its 26 neighbours got, or, if they got nothing either, keeps
-/// 0. Parallel; the result does not depend on threads.
-openvdb::Vec3SGrid::Ptr normalGrid(const openvdb::MaskGrid& mask, const VoxelSums& sums);
+/// Grid `normal`: at each voxel of the mask the direction of its mean, of length 1; 0 where
+/// opposite sides cancel, and outside. Parallel; the result does not depend on threads.
+/// @param means  their gaps are filled
+openvdb::Vec3SGrid::Ptr normalGrid(const openvdb::MaskGrid& mask, const VoxelMeans& means);
 
 }  // namespace vox

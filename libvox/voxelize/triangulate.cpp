@@ -266,4 +266,15 @@ void triangulate(std::span<const Vec3d> corners, std::vector<std::array<Index, 3
     report.fanned += !EarClipper(corners).clip(triangles);
 }
 
+void FaceTriangulator::add(const PolygonMesh& mesh, Index f,
+                           std::vector<std::array<Index, 3>>& triangles) {
+  const auto face = mesh.face(f);
+  corners_.clear();
+  for (const Index v : face) corners_.push_back(mesh.points[v]);
+  const std::size_t first = triangles.size();
+  triangulate(corners_, triangles, report_);
+  for (std::size_t t = first; t < triangles.size(); ++t)
+    for (Index& corner : triangles[t]) corner = face[corner];
+}
+
 }  // namespace vox

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/types.h"
+#include "libvox/mesh/polygon_mesh.h"
 
 #include <array>
 #include <cstdint>
@@ -31,5 +32,17 @@ struct TriangulationReport {
 /// Meisters 1975.
 void triangulate(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>& triangles,
                  TriangulationReport& report);
+
+/// Cuts faces of meshes into triangles; keeps its work space and its report.
+class FaceTriangulator {
+ public:
+  /// Appends the triangles of face f, given by points of the mesh.
+  void add(const PolygonMesh& mesh, Index f, std::vector<std::array<Index, 3>>& triangles);
+  const TriangulationReport& report() const { return report_; }
+
+ private:
+  std::vector<Vec3d> corners_;
+  TriangulationReport report_;
+};
 
 }  // namespace vox
