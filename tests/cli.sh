@@ -437,6 +437,10 @@ assert check["ok"] is False and check["objects"][0]["tunnels"] > 0
 assert [f["fault"] for f in check["faults"]] == ["tunnel"]
 assert check["components"]["count"] == 1
 PY
+expect 0 '' convert "$scenes/sheet.toml" -o adaptive.vdb --dim 40 --until angle=5,diameter=4 --grids mask,density --verify --quiet
+expect 0 '' check adaptive.vdb --mesh "$scenes/sheet.toml"
+expect 0 '' convert "$scenes/toy_jack.toml" -o turned.vdb --dim 40 --grids density,mask,surface,normal --fill solid --target houdini --verify --quiet
+expect 0 '' check turned.vdb --mesh "$scenes/toy_jack.toml"
 expect 2 "unknown fault 'holes'" check torus.vdb --ignore holes
 expect 3 "has no grid 'fog'" check torus.vdb --grid fog
 expect 3 'nowhere.vdb: no such file' check nowhere.vdb

@@ -97,9 +97,17 @@ TEST_CASE("every fault planted in a fog volume is named", "[inspect][lint]") {
           grid.setTransform(openvdb::math::Transform::createFrustumTransform(
               openvdb::BBoxd({0, 0, 0}, {100, 100, 100}), 0.5, 10.0));
         }) == "frustum");
-  CHECK(planted([](Grid& grid) {
-          grid.insertMeta("vox_active_voxels", openvdb::Int64Metadata(99));
-        }) == "count");
+}
+
+TEST_CASE("a mask that has changed since it was made is found out", "[inspect][lint]") {
+  openvdb::initialize();
+  auto mask = openvdb::MaskGrid::create();
+  mask->setName("mask");
+  for (int x = 0; x < 100; ++x) mask->tree().setValueOn({x, 3, 4});
+  mask->insertMeta("vox_active_voxels", openvdb::Int64Metadata(100));
+  CHECK(codesOf(lintGrid(*mask)).empty());
+  mask->tree().setValueOff({50, 3, 4});
+  CHECK(codesOf(lintGrid(*mask)) == "count");
 }
 
 TEST_CASE("signed distances are checked as such, and must not be called density",

@@ -424,3 +424,26 @@ TEST_CASE("a needle is converted by few polygons, and none of it is lost", "[pol
   // A smoothed tetrahedron keeps more than half of its length.
   CHECK(part.activeVoxels > 1500);
 }
+
+TEST_CASE("triangles for others keep to the rule and are the same for any threads",
+          "[polygons][parallel]") {
+  SubdivisionLevel base = baseLevel(test::dodecahedron());
+  for (Vec3d& p : base.mesh.points) p *= 50;
+  Progress unwatched;
+  const StopRule flat = {.flatness = 0.1};
+  const auto make = [&] { return triangleSoup(base, flat, unwatched); };
+  const TriangleSoup soup = onThreads(1, make);
+  const TriangleSoup again = onThreads(8, make);
+  CHECK(soup.points == again.points);
+  CHECK(soup.triangles == again.triangles);
+  // Closed: the area vectors of the triangles add up to nothing.
+  Vec3d sum = Vec3d::Zero();
+  double area = 0;
+  for (const auto& [a, b, c] : soup.triangles) {
+    const Vec3d twice = (soup.points[b] - soup.points[a]).cross(soup.points[c] - soup.points[a]);
+    sum += twice;
+    area += twice.norm();
+  }
+  CHECK(area > 1000);
+  CHECK(sum.norm() < 1e-9 * area);
+}

@@ -1,6 +1,8 @@
 #include "libvox/inspect/separation.h"
 
+#include "libvox/inspect/components.h"
 #include "libvox/pipeline/convert.h"
+#include "libvox/pipeline/refined_polygons.h"
 #include "libvox/prepare/sound.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
@@ -21,6 +23,7 @@ namespace {
 /// A shape in voxels and the surface it becomes when its faces fit into one.
 struct Case {
   MaskTree voxels;
+  PolygonMesh mesh;
   ReferenceSurface surface;
 };
 
@@ -54,8 +57,8 @@ Case caseOf(PolygonMesh mesh, double size, std::optional<int> levels = {},
   SubdivisionLevel level = baseLevel(soundMesh(mesh, {}, report), BoundaryRule::kExtend);
   for (int k = 0; levels ? k < *levels : !fine(level.mesh); ++k)
     level = nextLevel(level, imageVertices(level));
-  return {openvdb::gridPtrCast<openvdb::MaskGrid>(conversion.grids[0])->tree(),
-          {std::move(level.mesh), std::move(level.adjacency), tolerance}};
+  return {openvdb::gridPtrCast<openvdb::MaskGrid>(conversion.grids[0])->tree(), level.mesh,
+          referenceSurface(level.mesh, tolerance)};
 }
 
 /// Every n-th voxel, of those with inactive ones on both sides along some axis, or of the others.
@@ -118,10 +121,10 @@ TEST_CASE("a voxel less is a tunnel where a flood from inside gets out, and nowh
     const std::vector<Coord> others = everyNth(made.voxels, false, 97);
     voxels.insert(voxels.end(), others.begin(), others.end());
     for (const Coord& gone : voxels) {
-      Case holed = {made.voxels, made.surface};
+      Case holed = made;
       holed.voxels.setValueOff(gone);
       const auto mask = openvdb::MaskGrid::create(std::make_shared<MaskTree>(holed.voxels));
-      const bool leaks = test::sidesOf(made.surface.mesh, *mask).leaks > 0;
+      const bool leaks = test::sidesOf(made.mesh, *mask).leaks > 0;
       const SeparationReport report = findTunnels(holed.voxels, made.surface, Separation::k6);
       CAPTURE(gone);
       CHECK((report.tunnels > 0) == leaks);
@@ -144,8 +147,7 @@ TEST_CASE("any voxel less of a thin plane is a tunnel, away from its rim",
   plane.points = {{-9.6, -9.6, 0.2}, {9.4, -9.6, 0.2}, {9.4, 9.4, 0.2}, {-9.6, 9.4, 0.2}};
   plane.faceOffsets = {0};
   plane.addFace(std::vector<Index>{0, 1, 2, 3});
-  SubdivisionLevel level = baseLevel(plane);
-  const ReferenceSurface surface = {level.mesh, level.adjacency, 0};
+  const ReferenceSurface surface = referenceSurface(plane, 0);
   MaskTree voxels;
   for (int x = -10; x <= 9; ++x)
     for (int y = -10; y <= 9; ++y) voxels.setValueOn({x, y, 0});
@@ -161,6 +163,36 @@ TEST_CASE("any voxel less of a thin plane is a tunnel, away from its rim",
         CHECK(report.first == VoxelIndex{x, y, 0});
       }
   }
+}
+
+TEST_CASE("polygons that stop here and there meet where their corners do",
+          "[inspect][separation]") {
+  // Were there gaps, the steps beside them would not count, and no tunnel would be found.
+  const StopRule until = {.diameter = 4, .angle = 8};
+  PolygonMesh mesh = test::dodecahedron();
+  for (Vec3d& p : mesh.points) p *= 9.3;
+  Scene scene;
+  scene.objects.push_back({"shape", mesh});
+  ConvertOptions options;
+  options.voxelSize = 1;
+  options.grids = std::vector{GridKind::kMask};
+  options.until = until;
+  const Conversion conversion = convert(scene, options);
+  const auto& voxels = openvdb::gridPtrCast<openvdb::MaskGrid>(conversion.grids[0])->tree();
+  Progress unwatched;
+  TriangleSoup soup = triangleSoup(baseLevel(mesh, BoundaryRule::kExtend), until, unwatched);
+  const ReferenceSurface surface = {std::move(soup.points), std::move(soup.triangles), 0};
+  CHECK(findTunnels(voxels, surface, Separation::k6).tunnels == 0);
+  std::size_t tunnels = 0;
+  for (const Coord& gone : everyNth(voxels, true, 41)) {
+    MaskTree holed(voxels);
+    holed.setValueOff(gone);
+    CAPTURE(gone);
+    const bool leaks = Cavities(holed).enclosed().empty();
+    CHECK((findTunnels(holed, surface, Separation::k6).tunnels > 0) == leaks);
+    tunnels += leaks;
+  }
+  CHECK(tunnels > 3);
 }
 
 TEST_CASE("one-sided surfaces have tunnels, too", "[inspect][separation]") {

@@ -113,8 +113,8 @@ ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const Options& optio
     if (key == "weld" && !made.weldTolerance) made.weldTolerance = std::stod(value);
     if (key == "until" && !made.until) made.until = stopRuleNamed(value);
     if (key == "voxelize") made.voxelize = voxelizeNamed(value);
-    if (key == "up") made.volume.up = namedIn(kUpAxisNames, value);
     if (key == "target") made.volume.target = namedIn(kTargetNames, value);
+    if (key == "up") made.volume.up = namedIn(kUpAxisNames, value);
     if (key == "interpolated-vertices" && !made.smoothing.interpolatedVertices)
       throw UsageError(options.file +
                        ": was made with --interpolate-vertices; give the same file here");

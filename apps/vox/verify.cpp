@@ -7,7 +7,9 @@
 #include "libvox/grid/transform.h"
 #include "libvox/inspect/lint.h"
 #include "libvox/inspect/topology.h"
+#include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/refine.h"
+#include "libvox/pipeline/refined_polygons.h"
 #include "libvox/subdivide/stop.h"
 
 #include <openvdb/openvdb.h>
@@ -15,10 +17,10 @@
 namespace vox::app {
 namespace {
 
-StopRule stopRuleOf(const SceneObject& object, const Scene& scene, const ConvertOptions& options) {
-  for (const auto& said : {options.until, object.until, scene.until})
-    if (said) return *said;
-  return {};
+/// What the options say, or else the object, or else the scene, or else the default.
+template <class T>
+T decided(const std::optional<T>& a, const std::optional<T>& b, const std::optional<T>& c) {
+  return a ? *a : b ? *b : c.value_or(T{});
 }
 
 bool facesFitIntoVoxels(const PolygonMesh& mesh) {
@@ -31,31 +33,35 @@ bool facesFitIntoVoxels(const PolygonMesh& mesh) {
   return true;
 }
 
-/// The surface again, another way: the whole mesh at once, and by the plain algorithm.
-ReferenceSurface referenceOf(const Scene& scene, const SceneObject& object,
-                             const ConvertOptions& options, const MemoryBudget& budget,
-                             Progress& progress) {
-  PreparedObject prepared = prepare(scene, object, options, budget, progress);
-  SubdivisionLevel level = std::move(prepared.base);
-  GridTransform transform = transformForVoxelSize(*options.voxelSize);
-  transform.turn = turnOf(overriding(options.volume, scene.volume));
-  for (Vec3d& point : level.mesh.points) point = transform.toIndex(point);
-  const StopRule until = stopRuleOf(object, scene, options);
-  if (!until.untilVoxel() && until != StopRule{until.levels})
-    throw UsageError(object.name +
-                     ": only voxels made with --until voxel or levels=K can be held "
-                     "against the mesh, not " +
-                     stopRuleName(until));
-  if (until.levels) {
-    level = subdividedWithin(budget, std::move(level), *until.levels, progress);
-    return {std::move(level.mesh), std::move(level.adjacency), 0};
-  }
+/// The smooth surface again, another way: the whole mesh at once, and by the plain algorithm.
+ReferenceSurface smoothReference(SubdivisionLevel level, const MemoryBudget& budget,
+                                 Progress& progress) {
   while (!facesFitIntoVoxels(level.mesh))
     level = subdividedWithin(budget, std::move(level), 1, progress);
   // The conversion may stop levels before, at faces as small as a voxel: control points whose
   // second differences are at most 2 voxels, so that the surface is within 2/8 of them.
   constexpr double kTolerance = 0.25;
-  return {std::move(level.mesh), std::move(level.adjacency), kTolerance};
+  return referenceSurface(std::move(level.mesh), kTolerance);
+}
+
+ReferenceSurface referenceOf(const Scene& scene, const SceneObject& object,
+                             const ConvertOptions& options, const MemoryBudget& budget,
+                             Progress& progress) {
+  SubdivisionLevel level = std::move(prepare(scene, object, options, budget, progress).base);
+  GridTransform transform = transformForVoxelSize(*options.voxelSize);
+  transform.turn = turnOf(overriding(options.volume, scene.volume));
+  for (Vec3d& point : level.mesh.points) point = transform.toIndex(point);
+  const ConversionWay way = chooseWay(level, decided(options.until, object.until, scene.until),
+                                      decided(options.voxelize, object.voxelize, scene.voxelize),
+                                      options.separation, options.surface, progress);
+  if (!way.polygons) return smoothReference(std::move(level), budget, progress);
+  const bool uniform = way.until == StopRule{.levels = way.until.levels};
+  if (uniform)
+    return referenceSurface(
+        subdividedWithin(budget, std::move(level), *way.until.levels, progress).mesh, 0);
+  // Polygons that stop here and there have no second implementation.
+  TriangleSoup soup = triangleSoup(level, way.until, progress);
+  return {std::move(soup.points), std::move(soup.triangles), 0};
 }
 
 }  // namespace

@@ -185,7 +185,9 @@ void lintVoxels(const GridBase& grid, Findings& findings) {
     findings.add("tiles-only",
                  "has tiles but no leaf: Blender's Cycles will show nothing; voxelize the tiles");
   const auto said = grid.getMetadata<openvdb::Int64Metadata>("vox_active_voxels");
-  if (said && static_cast<std::uint64_t>(said->value()) != active)
+  // Other grids have other voxels: those inside, or a band.
+  if (said && grid.isType<openvdb::MaskGrid>() &&
+      static_cast<std::uint64_t>(said->value()) != active)
     findings.add("count", "has " + textOf(active) + " active voxels, but was made with " +
                               textOf(said->value()) + ": something has changed it since");
 }
@@ -207,7 +209,8 @@ void lintName(const GridBase& grid, Findings& findings) {
     findings.add("name",
                  "has characters in its name that attributes of Houdini cannot have; use letters, "
                  "digits and _");
-  if (name == "N" && grid.valueType().starts_with("vec3"))
+  const bool forHoudini = grid["vox_version"] != nullptr;  // vox uses the name for it only
+  if (name == "N" && !forHoudini && grid.valueType().starts_with("vec3"))
     findings.add("name", "is a vector grid by the name of Blender's own normals; name it normal");
 }
 

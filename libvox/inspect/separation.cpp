@@ -14,6 +14,7 @@
 #include <deque>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace vox {
@@ -24,14 +25,6 @@ using openvdb::CoordBBox;
 using openvdb::MaskTree;
 using Accessor = openvdb::tree::ValueAccessor<MaskTree>;
 using ConstAccessor = openvdb::tree::ValueAccessor<const MaskTree>;
-using Triangle = std::array<Index, 3>;
-
-std::vector<Triangle> trianglesOf(const PolygonMesh& mesh) {
-  std::vector<Triangle> all;
-  FaceTriangulator faces;
-  for (Index f = 0; f < mesh.faceCount(); ++f) faces.add(mesh, f, all);
-  return all;
-}
 
 // Crossings
 
@@ -48,18 +41,36 @@ LatticePoint onLattice(const Vec3d& point) {
 }
 
 /// Triangles that lie at the same place are one.
-std::vector<LatticeTriangle> onLattice(const PolygonMesh& mesh,
-                                       std::span<const Triangle> triangles) {
+std::vector<LatticeTriangle> onLattice(const ReferenceSurface& surface) {
   std::vector<LatticeTriangle> all;
-  all.reserve(triangles.size());
-  for (const auto& [a, b, c] : triangles) {
+  all.reserve(surface.triangles.size());
+  for (const auto& [a, b, c] : surface.triangles) {
     all.push_back(
-        {onLattice(mesh.points[a]), onLattice(mesh.points[b]), onLattice(mesh.points[c])});
+        {onLattice(surface.points[a]), onLattice(surface.points[b]), onLattice(surface.points[c])});
     std::sort(all.back().begin(), all.back().end());
   }
   sortInParallel(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
+}
+
+/// Sides that not two triangles have.
+using LatticeEdge = std::array<LatticePoint, 2>;
+std::vector<LatticeEdge> boundaryOf(std::span<const LatticeTriangle> triangles) {
+  std::vector<LatticeEdge> edges;
+  edges.reserve(3 * triangles.size());
+  for (const auto& [a, b, c] : triangles)
+    for (const LatticeEdge& edge : {LatticeEdge{a, b}, LatticeEdge{b, c}, LatticeEdge{a, c}})
+      if (edge[0] != edge[1]) edges.push_back(edge);
+  sortInParallel(edges);
+  std::vector<LatticeEdge> boundary;
+  for (std::size_t begin = 0; begin < edges.size();) {
+    std::size_t end = begin + 1;
+    while (end < edges.size() && edges[end] == edges[begin]) ++end;
+    if (end - begin != 2) boundary.push_back(edges[begin]);
+    begin = end;
+  }
+  return boundary;
 }
 
 /// Steps along one axis that cross the surface an odd number of times, by their lower voxel.
@@ -151,26 +162,26 @@ bool meetsCube(const std::array<Vec3d, 3>& t, double halfSide) {
 }
 
 /// Voxels whose closed cubes meet the surface.
-MaskTree voxelsOn(const PolygonMesh& mesh, std::span<const Triangle> triangles) {
+MaskTree voxelsOn(const ReferenceSurface& surface) {
   MaskTree voxels;
   Accessor accessor(voxels);
-  scanTriangles(mesh.points, triangles, Separation::k26, [&](const VoxelBlock& block) {
+  scanTriangles(surface.points, surface.triangles, Separation::k26, [&](const VoxelBlock& block) {
     forEachVoxel(block, [&](int x, int y, int z) { accessor.setValueOn({x, y, z}); });
   });
   return voxels;
 }
 
-/// Voxels within 1/2 and a tolerance (L-inf) of the surface.
-MaskTree layerAround(const PolygonMesh& mesh, std::span<const Triangle> triangles,
-                     double tolerance) {
-  if (tolerance == 0) return voxelsOn(mesh, triangles);
+/// Voxels within 1/2 and the tolerance (L-inf) of the surface.
+MaskTree layerAround(const ReferenceSurface& surface) {
+  const double tolerance = surface.tolerance;
+  if (tolerance == 0) return voxelsOn(surface);
   MaskTree layer;
   Accessor accessor(layer);
   const Vec3d reach = Vec3d::Constant(tolerance);  // voxelOf adds the half
-  for (const Triangle& t : triangles) {
-    const Vec3d& a = mesh.points[t[0]];
-    const Vec3d& b = mesh.points[t[1]];
-    const Vec3d& c = mesh.points[t[2]];
+  for (const auto& [i, j, k] : surface.triangles) {
+    const Vec3d& a = surface.points[i];
+    const Vec3d& b = surface.points[j];
+    const Vec3d& c = surface.points[k];
     const CoordBBox box(voxelOf(a.cwiseMin(b).cwiseMin(c) - reach),
                         voxelOf(a.cwiseMax(b).cwiseMax(c) + reach));
     for (const Coord& voxel : box) {
@@ -184,21 +195,22 @@ MaskTree layerAround(const PolygonMesh& mesh, std::span<const Triangle> triangle
 }
 
 /// Voxels within about two of the boundary.
-MaskTree rimOf(const ReferenceSurface& surface) {
+MaskTree rimOf(std::span<const LatticeTriangle> triangles) {
   constexpr int kWide = 2;
-  const PolygonMesh& mesh = surface.mesh;
   MaskTree rim;
   Accessor accessor(rim);
-  for (Index c = 0; c < mesh.cornerCount(); ++c) {
-    if (surface.adjacency.twin[c] != kNone) continue;
-    const Vec3d& from = mesh.points[mesh.faceVertices[c]];
-    const Vec3d& to = mesh.points[mesh.faceVertices[nextCorner(mesh, surface.adjacency, c)]];
-    const int steps = 1 + static_cast<int>((to - from).cwiseAbs().maxCoeff());
+  const auto inVoxels = [](const LatticePoint& p) {
+    return Vec3d(Eigen::Map<const Eigen::Matrix<std::int64_t, 3, 1>>(p.data()).cast<double>() /
+                 static_cast<double>(kLattice));
+  };
+  for (const LatticeEdge& edge : boundaryOf(triangles)) {
+    const Vec3d from = inVoxels(edge[0]);
+    const Vec3d along = inVoxels(edge[1]) - from;
+    const int steps = 1 + static_cast<int>(along.cwiseAbs().maxCoeff());
     for (int i = 0; i <= steps; ++i) {
-      CoordBBox box(voxelOf(from + (to - from) * i / steps),
-                    voxelOf(from + (to - from) * i / steps));
-      box.expand(kWide);
-      for (const Coord& voxel : box) accessor.setValueOn(voxel);
+      const Coord at = voxelOf(from + along * i / steps);
+      for (const Coord& voxel : CoordBBox(at.offsetBy(-kWide), at.offsetBy(kWide)))
+        accessor.setValueOn(voxel);
     }
   }
   return rim;
@@ -208,14 +220,14 @@ MaskTree rimOf(const ReferenceSurface& surface) {
 class Space {
  public:
   Space(const MaskTree& voxels, const ReferenceSurface& surface,
-        std::span<const Triangle> triangles)
-      : layer_(layerAround(surface.mesh, triangles, surface.tolerance)),
-        rim_(rimOf(surface)),
+        std::span<const LatticeTriangle> triangles)
+      : layer_(layerAround(surface)),
+        rim_(rimOf(triangles)),
         voxels_(voxels),
         inLayer_(layer_),
         inRim_(rim_),
         crossings_{Crossings(0), Crossings(1), Crossings(2)} {
-    for (const LatticeTriangle& triangle : onLattice(surface.mesh, triangles))
+    for (const LatticeTriangle& triangle : triangles)
       for (Crossings& crossings : crossings_) crossings.add(triangle);
   }
 
@@ -340,9 +352,8 @@ void note(SeparationReport& report, const std::vector<Coord>& holes) {
   }
 }
 
-SeparationReport findTunnels6(const MaskTree& voxels, const ReferenceSurface& surface,
-                              std::span<const Triangle> triangles) {
-  const Space space(voxels, surface, triangles);
+SeparationReport findTunnels6(const MaskTree& voxels, const ReferenceSurface& surface) {
+  const Space space(voxels, surface, onLattice(surface));
   Flood flood(space);
   SeparationReport report;
   for (auto voxel = space.layer().cbeginValueOn(); voxel; ++voxel) {
@@ -356,12 +367,20 @@ SeparationReport findTunnels6(const MaskTree& voxels, const ReferenceSurface& su
 
 }  // namespace
 
+ReferenceSurface referenceSurface(PolygonMesh mesh, double tolerance) {
+  ReferenceSurface surface;
+  FaceTriangulator faces;
+  for (Index f = 0; f < mesh.faceCount(); ++f) faces.add(mesh, f, surface.triangles);
+  surface.points = std::move(mesh.points);
+  surface.tolerance = tolerance;
+  return surface;
+}
+
 SeparationReport findTunnels(const MaskTree& voxels, const ReferenceSurface& surface,
                              Separation separation) {
-  const std::vector<Triangle> triangles = trianglesOf(surface.mesh);
-  if (separation == Separation::k6) return findTunnels6(voxels, surface, triangles);
+  if (separation == Separation::k6) return findTunnels6(voxels, surface);
   SeparationReport report;
-  MaskTree missing = voxelsOn(surface.mesh, triangles);
+  MaskTree missing = voxelsOn(surface);
   missing.topologyDifference(voxels);
   std::vector<Coord> holes;
   for (auto voxel = missing.cbeginValueOn(); voxel; ++voxel) holes.push_back(voxel.getCoord());

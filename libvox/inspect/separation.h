@@ -1,25 +1,30 @@
 #pragma once
 
 #include "libvox/inspect/diff.h"
-#include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/voxelize/scan.h"
 
 #include <openvdb/openvdb.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace vox {
 
-/// A surface to hold voxels against.
+/// A surface to hold voxels against, in index space. Triangles are neighbours where two of their
+/// corners lie at the same places; what has no neighbour is a boundary.
 struct ReferenceSurface {
-  PolygonMesh mesh;  ///< index space
-  Adjacency adjacency;
+  std::vector<Vec3d> points;
+  std::vector<std::array<Index, 3>> triangles;
   /// How far the surface that was voxelized may be from this one, in voxels (L-inf): 0 if these are
   /// its own polygons.
   double tolerance = 0;
 };
+
+/// The polygons of a mesh, cut into triangles.
+ReferenceSurface referenceSurface(PolygonMesh mesh, double tolerance);
 
 struct SeparationReport {
   std::uint64_t tunnels = 0;        ///< places where the surface is open

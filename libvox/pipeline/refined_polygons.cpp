@@ -70,6 +70,31 @@ class TaskSink : public PolygonSink {
   double credited_ = 0;
 };
 
+class SoupSink : public PolygonSink {
+ public:
+  TriangleSoup soup;
+
+  void polygons(const PolygonMesh& piece) override {
+    const std::size_t first = soup.points.size();
+    if (first + piece.points.size() >= kNone)
+      throw LimitError("the triangles have more points than fit in 32 bits");
+    soup.points.insert(soup.points.end(), piece.points.begin(), piece.points.end());
+    for (Index f = 0; f < piece.faceCount(); ++f) {
+      const auto face = piece.face(f);
+      corners_.clear();
+      for (const Index v : face) corners_.push_back(piece.points[v]);
+      const std::size_t before = soup.triangles.size();
+      triangulate(corners_, soup.triangles, fans_);
+      for (std::size_t t = before; t < soup.triangles.size(); ++t)
+        for (Index& corner : soup.triangles[t]) corner = static_cast<Index>(first) + face[corner];
+    }
+  }
+
+ private:
+  std::vector<Vec3d> corners_;
+  TriangulationReport fans_;
+};
+
 }  // namespace
 
 PolygonPlan planPolygons(const SubdivisionLevel& base, const StopRule& until, Index submeshFaces,
@@ -104,6 +129,30 @@ void makePolygons(const SubdivisionLevel& base, const PolygonPlan& plan, Progres
         vertices += verticesOf(plan.depths[c]);
     sink.finish(vertices);
   });
+}
+
+TriangleSoup triangleSoup(const SubdivisionLevel& base, const StopRule& until, Progress& progress) {
+  const PolygonPlan plan = planPolygons(base, until, kDefaultSubmeshFaces, progress);
+  requireFeasible(plan);
+  std::vector<SoupSink> parts(plan.partition.size());
+  tbb::enumerable_thread_specific<LocalPolygons> locals([&] { return LocalPolygons(base); });
+  forEach(plan.partition.size(), 1, [&](Index s) {
+    progress.check();
+    locals.local().emit(plan.partition.submesh(s), plan.depths, plan.rule.get(), parts[s]);
+  });
+  TriangleSoup all;
+  for (SoupSink& part : parts) {
+    const std::size_t first = all.points.size();
+    if (first + part.soup.points.size() >= kNone)
+      throw LimitError("the triangles have more points than fit in 32 bits");
+    all.points.insert(all.points.end(), part.soup.points.begin(), part.soup.points.end());
+    for (std::array<Index, 3> triangle : part.soup.triangles) {
+      for (Index& corner : triangle) corner += static_cast<Index>(first);
+      all.triangles.push_back(triangle);
+    }
+    part.soup = {};
+  }
+  return all;
 }
 
 }  // namespace vox

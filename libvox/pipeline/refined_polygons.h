@@ -44,4 +44,17 @@ PolygonPlan planPolygons(const SubdivisionLevel& base, const StopRule& until, In
 void makePolygons(const SubdivisionLevel& base, const PolygonPlan& plan, Progress& progress,
                   const std::function<PolygonSink&()>& sinkOfThread);
 
+/// Triangles for programs that want all of them at once: `points` may repeat.
+struct TriangleSoup {
+  std::vector<Vec3d> points;  ///< voxels
+  std::vector<std::array<Index, 3>> triangles;
+};
+
+/// A prepared surface in index space as triangles that nowhere keep farther from the smooth surface
+/// than the rule says: StopRule{.flatness = 0.1}, say. Pieces follow the order of the submeshes, so
+/// the result does not depend on threads.
+/// @throws LimitError  2^32 - 1 points or more; as makePolygons
+/// @throws Cancelled
+TriangleSoup triangleSoup(const SubdivisionLevel& base, const StopRule& until, Progress& progress);
+
 }  // namespace vox
