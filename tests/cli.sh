@@ -335,6 +335,13 @@ expect 2 'the band must lie between 1 and 1000, not 0.2' convert good.obj -o out
 expect 2 'the tolerance must lie' convert good.obj -o out.vdb --tolerance 0 --grids surface
 expect 4 'memory' convert "$scenes/cube.toml" -o out.vdb --grids surface --dim 3000 --max-memory 256M
 
+# A dry run.
+expect 0 '' convert "$scenes/cube.toml" --dry-run --dim 256 --grids density,surface
+grep -qE '^in all: about .* MiB of memory for grids, .* MiB in the file$' stdout || fail "dry run: $(cat stdout)"
+grep -qE '^grid density: about 2[0-9]{2}000 voxels' stdout || fail "dry run: $(cat stdout)"
+expect 4 'the grids need about .* TiB of memory .*use --dim [0-9]+' convert "$scenes/cube.toml" --dry-run --dim 100000 --max-memory 1G
+expect 2 'output is required' convert good.obj
+
 # Faults of a mesh are repaired, and told.
 expect 0 '' convert winding.obj -o winding.vdb --dim 8
 grep -q 'warning: winding: dropped 1 duplicate face' stderr || fail "no word of the repair: $(cat stderr)"
@@ -483,7 +490,7 @@ done
 expect 2 'one of before, during, off' convert good.obj -o out.vdb --localize after
 expect 2 'submesh-faces' convert good.obj -o out.vdb --submesh-faces 0
 expect 2 'submesh-faces' convert good.obj -o out.vdb --submesh-faces 2147483649
-expect 4 'of the whole mesh needs about .*--localize during' convert "$scenes/cube.toml" -o out.vdb --dim 3000 --localize off --max-memory 1G
+expect 4 'of the whole mesh needs about .*--localize during' convert "$scenes/cube.toml" -o out.vdb --dim 3000 --grids mask --localize off --max-memory 1G
 
 # A report.
 expect 0 'active voxels' convert "$scenes/gallery.toml" -o gallery.vdb --dim 200 --grids density,mask --report report.json --threads 2

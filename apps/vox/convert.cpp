@@ -9,10 +9,14 @@
 #include "apps/vox/progress_bar.h"
 #include "apps/vox/verify.h"
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 #include "libvox/core/stopwatch.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/input_file.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -29,6 +33,7 @@ struct Options {
   VolumeArguments volume;
   std::string report;
   bool verify = false;
+  bool dryRun = false;
   CommonOptions common;
 };
 
@@ -59,6 +64,34 @@ void writeReport(const Options& options, const FinishedRun& run) {
   file.commit();
 }
 
+/// An estimate with three digits: "about 270000".
+std::string about(double count) {
+  const double unit =
+      std::pow(10.0, std::max(0.0, std::floor(std::log10(std::max(count, 1.0))) - 2));
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(0) << "about " << std::round(count / unit) * unit;
+  return text.str();
+}
+
+/// Prints what a conversion would make.
+void printEstimate(const Options& options, const Scene& scene,
+                   const ConvertOptions& convertOptions) {
+  std::vector<std::string> warnings;
+  const Estimate made = estimate(scene, convertOptions, warnings);
+  for (const std::string& warning : warnings) say(options.common, "warning: " + warning);
+  if (!made.refusal.empty()) throw LimitError(made.refusal);
+  const auto bytes = [](double count) { return formatBytes(static_cast<std::uint64_t>(count)); };
+  std::cout << "voxel size " << made.voxelSize << ", " << made.levels << " levels";
+  if (made.voxels > 0) std::cout << ", " << about(made.voxels) << " voxels of the surface";
+  std::cout << '\n';
+  for (const GridEstimate& grid : made.grids)
+    std::cout << "grid " << gridName(grid.kind) << ": " << about(grid.voxels) << " voxels in "
+              << about(grid.leaves) << " leaves, " << bytes(grid.bytes) << " in memory, "
+              << bytes(grid.fileBytes) << " in the file\n";
+  std::cout << "in all: about " << bytes(made.bytes) << " of memory for grids, "
+            << bytes(made.fileBytes) << " in the file\n";
+}
+
 /// Checks, before the work starts, what is to be written.
 void requireOutputs(const Options& options, const Scene& scene) {
   requireOutput(options.output, options.common, scene);
@@ -69,7 +102,10 @@ void requireOutputs(const Options& options, const Scene& scene) {
 }
 
 ConvertOptions parse(const Options& options) {
-  if (!isStdout(options.output) && lowerExtension(options.output) != ".vdb")
+  if (options.output.empty() && !options.dryRun)
+    throw UsageError("--output is required; or see what it would be with --dry-run");
+  if (!options.output.empty() && !isStdout(options.output) &&
+      lowerExtension(options.output) != ".vdb")
     throw UsageError(options.output + ": the output of vox convert must end in .vdb");
   if (!options.report.empty() && lowerExtension(options.report) != ".json")
     throw UsageError(options.report + ": the file of --report must end in .json");
@@ -91,6 +127,10 @@ int run(const Options& options) {
   const Stopwatch reading;
   const Scene scene = readScene(options.input);
   const double readSeconds = reading.seconds();
+  if (options.dryRun) {
+    printEstimate(options, scene, convertOptions);
+    return 0;
+  }
   requireOutputs(options, scene);
 
   Progress progress(bar.callback());
@@ -124,7 +164,6 @@ Action addConvert(CLI::App& app) {
   command->add_option("INPUT", options->input, "Scene (.toml) or mesh (.obj .ply .off .stl .om)")
       ->required();
   command->add_option("-o,--output", options->output, "OpenVDB file to write; - for stdout")
-      ->required()
       ->type_name("OUT.vdb")
       ->group("Output");
   addResolutionOptions(*command, options->conversion.resolution);
@@ -158,6 +197,11 @@ Action addConvert(CLI::App& app) {
                  "Check the voxels against the surface, as vox check --mesh does, before the file "
                  "is written; exit code 1 if they fail")
       ->group("Output");
+  command
+      ->add_flag("--dry-run", options->dryRun,
+                 "Print voxels, memory, levels and file size to expect, to within a factor of 1.5 "
+                 "or so, and write nothing")
+      ->group("Run");
   addCommonOptions(*command, options->common);
   return [options] { return run(*options); };
 }

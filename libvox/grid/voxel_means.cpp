@@ -46,9 +46,9 @@ VoxelMeans::VoxelMeans(const openvdb::MaskTree& voxels) : voxels_(voxels) {
   sums_.resize(slots);
 }
 
-std::uint64_t VoxelMeans::bytesFor(const openvdb::MaskTree& voxels) {
+std::uint64_t VoxelMeans::bytesFor(std::uint64_t voxels, std::uint64_t leaves) {
   constexpr std::uint64_t kPerLeaf = 48;  // of the table of first slots
-  return voxels.activeVoxelCount() * sizeof(Sum) + voxels.leafCount() * kPerLeaf;
+  return voxels * sizeof(Sum) + leaves * kPerLeaf;
 }
 
 void VoxelMeans::Writer::add(const openvdb::Coord& voxel, const Vec3d& vector) {

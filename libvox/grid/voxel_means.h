@@ -19,7 +19,7 @@ class VoxelMeans {
   explicit VoxelMeans(const openvdb::MaskTree& voxels);
 
   /// What one needs for as many voxels and leaves, in bytes.
-  static std::uint64_t bytesFor(const openvdb::MaskTree& voxels);
+  static std::uint64_t bytesFor(std::uint64_t voxels, std::uint64_t leaves);
 
   /// One thread's way to the sums.
   class Writer {

@@ -37,8 +37,9 @@ std::optional<int> sampledLevel(const ConversionWay& way) {
 void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
                      const PreparedSurface& surface, std::span<const Vec3d> colors,
                      MemoryBudget budget, const Progress& progress) {
-  budget.take(VoxelMeans::bytesFor(voxels) + colors.size_bytes(), "the sums of colours",
-              kScatteredAdvice);
+  budget.take(
+      VoxelMeans::bytesFor(voxels.activeVoxelCount(), voxels.leafCount()) + colors.size_bytes(),
+      "the sums of colours", kScatteredAdvice);
   VoxelMeans means(voxels);
   sampleColors(surface.base, colors, sampledLevel(surface.way), budget, progress, means);
   means.fillGaps();

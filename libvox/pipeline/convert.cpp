@@ -14,6 +14,7 @@
 #include "libvox/io/write_vdb.h"
 #include "libvox/mesh/adjacency.h"
 #include "libvox/pipeline/choose.h"
+#include "libvox/pipeline/estimate.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/metadata.h"
@@ -160,12 +161,6 @@ void plan(const Scene& scene, const ConvertOptions& options, std::span<const dou
 
 // Conversion
 
-/// Whether a grid is made from black voxels.
-bool needsVoxels(std::span<const GridKind> kinds) {
-  return std::any_of(kinds.begin(), kinds.end(),
-                     [](GridKind kind) { return kind != GridKind::kSurface; });
-}
-
 /// Whether a grid tells inside from outside.
 bool needsInside(std::span<const GridKind> kinds, const VolumeOptions& volume) {
   return std::any_of(kinds.begin(), kinds.end(), [&](GridKind kind) {
@@ -211,10 +206,14 @@ void convertPolygons(const PreparedSurface& surface, const SurfaceOptions& optio
                        " of triangles");
 }
 
+/// How an object becomes voxels as far as somebody said: near enough to tell how many.
+ConversionWay wayAsked(const StopRule& until, Separation separation) {
+  return {!until.untilVoxel() || separation == Separation::k26, until, separation};
+}
+
 /// Every object, ready to subdivide in index space.
 std::vector<PreparedSurface> prepareObjects(const Scene& scene, const ConvertOptions& options,
-                                            const GridTransform& transform, double longestSide,
-                                            std::span<const GridKind> kinds, MemoryBudget& budget,
+                                            const GridTransform& transform, MemoryBudget& budget,
                                             Progress& progress, ConvertReport& report) {
   const StageTimer timer(report.prepareSeconds);
   std::vector<PreparedSurface> surfaces;
@@ -228,14 +227,22 @@ std::vector<PreparedSurface> prepareObjects(const Scene& scene, const ConvertOpt
     if (until.levels != 0) warnOfBoundary(part.name, prepared.base, report);
     notePreparation(prepared, transform, part, report);
     moveToIndexSpace(prepared.base.mesh, transform);
-    requireGridsFit(prepared.base, kinds, transform, longestSide, budget);
     budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
-    const ConversionWay way = chooseWay(prepared.base, until, voxelizeOf(object, scene, options),
-                                        options.separation, options.surface, progress);
-    surfaces.push_back({object.name, std::move(prepared.base), way,
+    surfaces.push_back({object.name, std::move(prepared.base), wayAsked(until, options.separation),
                         textureOf(object, options.texture, transform.turn)});
   }
   return surfaces;
+}
+
+/// How each object becomes voxels.
+void chooseWays(const Scene& scene, const ConvertOptions& options, const Progress& progress,
+                std::span<PreparedSurface> surfaces) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
+    surfaces[i].way = chooseWay(surfaces[i].base, stopRuleOf(object, scene, options),
+                                voxelizeOf(object, scene, options), options.separation,
+                                options.surface, progress);
+  }
 }
 
 /// The voxels of all objects.
@@ -301,28 +308,50 @@ openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
   return grid;
 }
 
-Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progress& progress) {
-  openvdb::initialize();
-  Conversion result;
-  ConvertReport& report = result.report;
+/// Everything that a conversion begins with.
+struct Preparation {
+  MemoryBudget budget;
+  std::vector<GridKind> kinds;
+  VolumeOptions volume;
+  GridTransform transform = {};
+  std::vector<double> areas = {};
+  std::vector<PreparedSurface> surfaces = {};
+  Estimate estimate = {};
+};
+
+Preparation prepareScene(const Scene& scene, const ConvertOptions& options, Progress& progress,
+                         ConvertReport& report) {
   report.threads = tbb::this_task_arena::max_concurrency();
-  MemoryBudget budget(options.run.maxMemory);
+  Preparation prepared{MemoryBudget(options.run.maxMemory), gridsOf(scene, options),
+                       overriding(options.volume, scene.volume)};
+  MemoryBudget& budget = prepared.budget;
   for (const SceneObject& object : scene.objects)
     budget.take(bytesOf(object.mesh), "the input", "raise --max-memory");
 
   const Box box = boxOf(scene);
-  const GridTransform transform = chooseTransform(box, scene, options);
-  const std::vector<GridKind> kinds = gridsOf(scene, options);
-  const VolumeOptions volume = overriding(options.volume, scene.volume);
-  const std::vector<double> areas = areasOf(scene, transform, progress);
-  plan(scene, options, areas, kinds, progress);
-  report.voxelSize = transform.voxelSize;
-  std::vector<PreparedSurface> surfaces =
-      prepareObjects(scene, options, transform, box.longestSide(), kinds, budget, progress, report);
-  if (needsInside(kinds, volume))
-    for (const PreparedSurface& surface : surfaces)
-      requireInside(surface, volume.openMesh.value_or(OpenMesh::kSurface), transform,
-                    report.warnings);
+  prepared.transform = chooseTransform(box, scene, options);
+  report.voxelSize = prepared.transform.voxelSize;
+  prepared.areas = areasOf(scene, prepared.transform, progress);
+  plan(scene, options, prepared.areas, prepared.kinds, progress);
+  prepared.surfaces = prepareObjects(scene, options, prepared.transform, budget, progress, report);
+  if (needsInside(prepared.kinds, prepared.volume))
+    for (const PreparedSurface& surface : prepared.surfaces)
+      requireInside(surface, prepared.volume.openMesh.value_or(OpenMesh::kSurface),
+                    prepared.transform, report.warnings);
+  prepared.estimate = estimateGrids(prepared.surfaces, prepared.kinds, prepared.volume);
+  prepared.estimate.voxelSize = report.voxelSize;
+  prepared.estimate.refusal = refusalOf(prepared.estimate, box.longestSide(), budget);
+  return prepared;
+}
+
+Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progress& progress) {
+  openvdb::initialize();
+  Conversion result;
+  ConvertReport& report = result.report;
+  auto [budget, kinds, volume, transform, areas, surfaces, estimate] =
+      prepareScene(scene, options, progress, report);
+  if (!estimate.refusal.empty()) throw LimitError(estimate.refusal);
+  chooseWays(scene, options, progress, surfaces);
   const auto toMark = needsVoxels(kinds) ? std::span(surfaces) : std::span<PreparedSurface>();
   const openvdb::MaskGrid::Ptr mask =
       markObjects(scene, toMark, options, transform, needsVoxelsApart(surfaces, kinds), areas,
@@ -341,9 +370,24 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
   return result;
 }
 
-}  // namespace
+Estimate estimateScene(const Scene& scene, const ConvertOptions& options, Progress& progress,
+                       std::vector<std::string>& warnings) {
+  ConvertReport report;
+  Preparation prepared = prepareScene(scene, options, progress, report);
+  warnings = report.warnings;
+  Estimate& estimate = prepared.estimate;
+  if (!estimate.refusal.empty()) return estimate;
+  chooseWays(scene, options, progress, prepared.surfaces);
+  estimate = estimateGrids(prepared.surfaces, prepared.kinds, prepared.volume);
+  estimate.voxelSize = report.voxelSize;
+  for (const PreparedSurface& surface : prepared.surfaces)
+    estimate.levels = std::max(estimate.levels, levelsOf(surface, options.surface, progress));
+  return estimate;
+}
 
-Conversion convert(const Scene& scene, const ConvertOptions& options) {
+/// Checks what is asked for, and runs work(progress) on the threads asked for.
+template <class Work>
+auto onOptions(const Scene& scene, const ConvertOptions& options, Work&& work) {
   requireStopRules(scene, options);
   const VolumeOptions volume = overriding(options.volume, scene.volume);
   requireValid(volume);
@@ -351,7 +395,21 @@ Conversion convert(const Scene& scene, const ConvertOptions& options) {
   requireValidScene(scene);
   Progress unwatched;
   Progress& progress = options.run.progress != nullptr ? *options.run.progress : unwatched;
-  return onThreads(options.run.threads, [&] { return convertScene(scene, options, progress); });
+  return onThreads(options.run.threads, [&] { return work(progress); });
+}
+
+}  // namespace
+
+Conversion convert(const Scene& scene, const ConvertOptions& options) {
+  return onOptions(scene, options,
+                   [&](Progress& progress) { return convertScene(scene, options, progress); });
+}
+
+Estimate estimate(const Scene& scene, const ConvertOptions& options,
+                  std::vector<std::string>& warnings) {
+  return onOptions(scene, options, [&](Progress& progress) {
+    return estimateScene(scene, options, progress, warnings);
+  });
 }
 
 void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress) {

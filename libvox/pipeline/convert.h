@@ -5,6 +5,7 @@
 #include "libvox/grid/volume_options.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/stop_rule.h"
+#include "libvox/pipeline/estimate.h"
 #include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/preparation_options.h"
 #include "libvox/pipeline/run_options.h"
@@ -97,6 +98,11 @@ struct Conversion {
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid
 /// @throws Cancelled   options.run.progress says so
 Conversion convert(const Scene& scene, const ConvertOptions& options);
+
+/// What convert would make, without making it; besides, its warnings.
+/// @throws as convert, except that grids which do not fit are no error: see Estimate::refusal
+Estimate estimate(const Scene& scene, const ConvertOptions& options,
+                  std::vector<std::string>& warnings);
 
 /// Writes grids to a new file: complete or not at all, equal input giving equal bytes.
 /// @param progress  that of the conversion, of which this is the last stage; or none

@@ -2,7 +2,6 @@
 
 #include "libvox/pipeline/grids.h"
 
-#include "libvox/mesh/adjacency.h"
 #include "libvox/pipeline/distance.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/normals.h"
@@ -14,34 +13,10 @@
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <sstream>
 
 namespace vox {
 namespace {
-
-/// Bytes of nodes per square voxel of a surface: 1.5 leaves per 64 and 1.5 inner nodes per 16384,
-/// averaged over directions.
-template <class TreeT>
-double bytesPerArea(std::size_t valueBytes) {
-  using Leaf = typename TreeT::LeafNodeType;
-  using Lower = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
-  const auto leafBytes = static_cast<double>(sizeof(Leaf) + Leaf::SIZE * valueBytes);
-  return 1.5 * (leafBytes / 64 + sizeof(Lower) / 16384.0);
-}
-
-double bytesOfGrids(double area, std::span<const GridKind> kinds) {
-  double perArea = bytesPerArea<openvdb::MaskTree>(0);
-  for (const GridKind kind : kinds) {
-    if (kind == GridKind::kDensity) perArea += bytesPerArea<openvdb::FloatTree>(sizeof(float));
-    if (kind == GridKind::kNormal)
-      perArea += bytesPerArea<openvdb::Vec3STree>(sizeof(openvdb::Vec3s));
-    if (kind == GridKind::kColor)
-      perArea += bytesPerArea<openvdb::Vec3STree>(sizeof(openvdb::Vec3f));
-  }
-  return area * perArea;
-}
 
 openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
                                    std::span<const PreparedSurface> surfaces,
@@ -65,7 +40,8 @@ openvdb::GridBase::Ptr makeNormals(const openvdb::MaskGrid& mask,
                                    Progress& progress) {
   constexpr const char* kAdvice = "leave it out, use larger voxels, or raise --max-memory";
   budget.take(bytesOfGrid<openvdb::Vec3STree>(mask.tree()), "the normal grid", kAdvice);
-  budget.require(VoxelMeans::bytesFor(mask.tree()), "the normals", kAdvice);
+  budget.require(VoxelMeans::bytesFor(mask.tree().activeVoxelCount(), mask.tree().leafCount()),
+                 "the normals", kAdvice);
   VoxelMeans means(mask.tree());
   for (const PreparedSurface& surface : surfaces)
     addNormals(surface.base, surface.way, progress, means);
@@ -86,23 +62,9 @@ double workOfGrids(std::span<const double> areas, std::span<const GridKind> kind
   return work;
 }
 
-void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kinds,
-                     const GridTransform& transform, double longestSide,
-                     const MemoryBudget& budget) {
-  const auto& twin = base.adjacency.twin;
-  const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
-  if (open && base.boundary == BoundaryStage::kPlain) return;
-  const double bytes = bytesOfGrids(areaOf(base.mesh), kinds);
-  constexpr double kCertain = 4;
-  const double left = static_cast<double>(budget.left());
-  if (bytes <= kCertain * left) return;
-  const double larger = std::sqrt(kCertain * bytes / left) * transform.voxelSize;
-  std::ostringstream advice;
-  advice.precision(3);
-  advice << "use --dim " << static_cast<std::int64_t>(std::max(1.0, longestSide / larger))
-         << " or --voxel-size " << larger << ", or raise --max-memory";
-  constexpr double kMostBytes = 1e18;
-  budget.require(static_cast<std::uint64_t>(std::min(bytes, kMostBytes)), "the grid", advice.str());
+bool needsVoxels(std::span<const GridKind> kinds) {
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [](GridKind kind) { return kind != GridKind::kSurface; });
 }
 
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
@@ -126,15 +88,18 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mas
 }
 
 std::uint64_t expectedBytes(std::span<const openvdb::GridBase::Ptr> grids) {
-  constexpr std::uint64_t kPerLeaf = 145;
-  constexpr std::uint64_t kPerLeafOfValues = 195;
-  constexpr std::uint64_t kPerLeafOfVectors = 800;
+  constexpr std::uint64_t kMask = 145;  // of a leaf
+  constexpr std::uint64_t kFog = 195;
+  constexpr std::uint64_t kDistances = 850;
+  constexpr std::uint64_t kVectors = 800;
   std::uint64_t bytes = 0;
-  for (const auto& grid : grids)
-    bytes += grid->constBaseTree().leafCount() * (grid->isType<openvdb::MaskGrid>() ? kPerLeaf
-                                                  : grid->isType<openvdb::Vec3SGrid>()
-                                                      ? kPerLeafOfVectors
-                                                      : kPerLeafOfValues);
+  for (const auto& grid : grids) {
+    std::uint64_t perLeaf = kDistances;
+    if (grid->isType<openvdb::MaskGrid>()) perLeaf = kMask;
+    if (grid->isType<openvdb::Vec3SGrid>()) perLeaf = kVectors;
+    if (grid->getGridClass() == openvdb::GRID_FOG_VOLUME) perLeaf = kFog;
+    bytes += grid->constBaseTree().leafCount() * perLeaf;
+  }
   return bytes;
 }
 

@@ -43,15 +43,8 @@ std::uint64_t bytesOfGrid(const openvdb::MaskTree& mask) {
 inline constexpr const char* kScatteredAdvice =
     "the model is scattered over much space: use larger voxels, or raise --max-memory";
 
-/// Refuses a surface that cannot fit, before the work starts, and says which resolution would. The
-/// surface has about the area of the control mesh; far less where it shrinks from a free boundary,
-/// so nothing is refused there.
-/// @param base         in index space
-/// @param longestSide  of the input, world units
-/// @throws LimitError
-void requireGridsFit(const SubdivisionLevel& base, std::span<const GridKind> kinds,
-                     const GridTransform& transform, double longestSide,
-                     const MemoryBudget& budget);
+/// Whether a grid is made from black voxels.
+bool needsVoxels(std::span<const GridKind> kinds);
 
 /// The output grid of a kind, from the black voxels and the surfaces they came from.
 /// @throws LimitError  it does not fit into the budget

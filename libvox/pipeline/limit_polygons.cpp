@@ -35,6 +35,10 @@ std::vector<Vec3d> limitPoints(const PolygonMesh& mesh, const std::vector<Vec3d>
   return limits;
 }
 
+void goHalfway(PolygonMesh& mesh, const std::vector<Vec3d>& limits) {
+  for (std::size_t v = 0; v < limits.size(); ++v) mesh.points[v] = (mesh.points[v] + limits[v]) / 2;
+}
+
 /// Area vector of a face (Newell), not normalized.
 Vec3d areaVector(const PolygonMesh& mesh, Index f) {
   Vec3d sum = Vec3d::Zero();
@@ -106,12 +110,25 @@ PolygonMesh limitPolygons(SubdivisionLevel base, double tolerance, const MemoryB
     }
     const std::vector<Vec3d> limits = limitPoints(level.mesh, image);
     if (errorOf(level.mesh, limits) <= tolerance || k == kMostLevels) {
-      for (std::size_t v = 0; v < limits.size(); ++v)
-        level.mesh.points[v] = (level.mesh.points[v] + limits[v]) / 2;
+      goHalfway(level.mesh, limits);
       return trianglesAndQuads(std::move(level.mesh));
     }
     level = nextLevel(level, std::move(image));
   }
+}
+
+PolygonMesh fewPolygons(const SubdivisionLevel& base, std::optional<int> levels) {
+  constexpr Index kEnoughCorners = 10000;
+  const int most = levels.value_or(kMostLevels);
+  if (most == 0 || base.mesh.cornerCount() > kEnoughCorners) return base.mesh;
+  SubdivisionLevel level = base;
+  int k = 0;
+  do {
+    level = nextLevel(level, imageVertices(level));
+    ++k;
+  } while (k < most && level.mesh.cornerCount() <= kEnoughCorners);
+  if (!levels) goHalfway(level.mesh, limitPoints(level.mesh, imageVertices(level)));
+  return std::move(level.mesh);
 }
 
 }  // namespace vox

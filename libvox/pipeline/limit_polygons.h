@@ -4,6 +4,8 @@
 #include "libvox/core/progress.h"
 #include "libvox/subdivide/level.h"
 
+#include <optional>
+
 namespace vox {
 
 /// Triangles and quads that follow the smooth surface of a prepared mesh to within about
@@ -22,5 +24,9 @@ namespace vox {
 /// @throws Cancelled
 PolygonMesh limitPolygons(SubdivisionLevel base, double tolerance, const MemoryBudget& budget,
                           const Progress& progress);
+
+/// Some thousands of polygons near the smooth surface, or near those of level `levels`: to measure,
+/// not to convert. A mesh of more polygons than that stays as it is.
+PolygonMesh fewPolygons(const SubdivisionLevel& base, std::optional<int> levels);
 
 }  // namespace vox

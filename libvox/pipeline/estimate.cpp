@@ -1,0 +1,321 @@
+// What a conversion will make, from the area of its surfaces. Factors are as once measured on the
+// scenes at dim 64 to 1024.
+
+#include "libvox/pipeline/estimate.h"
+
+#include "libvox/grid/voxel_means.h"
+#include "libvox/mesh/area_vector.h"
+#include "libvox/pipeline/distance.h"
+#include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/limit_polygons.h"
+#include "libvox/pipeline/refined_polygons.h"
+#include "libvox/prepare/enclosure.h"
+#include "libvox/subdivide/stop.h"
+#include "libvox/volume/level_set.h"
+
+#include <openvdb/openvdb.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+namespace vox {
+namespace {
+
+using openvdb::Coord;
+using MaskLeaf = openvdb::MaskTree::LeafNodeType;
+using MaskUpper = openvdb::MaskTree::RootNodeType::ChildNodeType;
+using MaskLower = MaskUpper::ChildNodeType;
+using FloatLeaf = openvdb::FloatTree::LeafNodeType;
+using FloatUpper = openvdb::FloatTree::RootNodeType::ChildNodeType;
+using FloatLower = FloatUpper::ChildNodeType;
+
+/// Surfaces in numbers, in voxels.
+struct Measure {
+  double area = 0;
+  double taxicabArea = 0;  ///< of |nx| + |ny| + |nz|: the cubes of a lattice that it meets
+  double largestArea = 0;  ///< of max(|nx|, |ny|, |nz|): the least cubes that separate its sides
+  double volume = 0;       ///< inside
+  double blackVoxels = 0;
+  double leaves = 0;  ///< nodes of 8^3 voxels
+  double lowers = 0;  ///< of 128^3
+  double uppers = 0;  ///< of 4096^3
+  bool textured = false;
+  bool smooth = false;  ///< normals differ from voxel to voxel
+};
+
+/// The cubes of 2^log2 voxels a side that polygons meet, unless these are too large to look.
+class Cubes {
+ public:
+  Cubes(int log2, double mostPieces) : log2_(log2), mostPieces_(mostPieces) {}
+
+  void add(const PolygonMesh& mesh, double area) {
+    complete_ = complete_ && area / (piece() * piece()) <= mostPieces_;
+    if (!complete_) return;
+    for (Index f = 0; f < mesh.faceCount(); ++f) {
+      const auto face = mesh.face(f);
+      const auto& p = mesh.points;
+      for (std::size_t i = 1; i + 1 < face.size(); ++i)
+        addTriangle(p[face[0]], p[face[i]], p[face[i + 1]]);
+    }
+  }
+
+  /// Their number, or nothing.
+  std::optional<double> count() const { return countOf(log2_); }
+  /// The number of larger ones.
+  std::optional<double> countOf(int log2) const {
+    if (!complete_) return std::nullopt;
+    std::set<Coord> larger;
+    for (const Coord& cube : cubes_) larger.insert(cube >> (log2 - log2_));
+    return static_cast<double>(larger.size());
+  }
+
+ private:
+  double piece() const { return std::ldexp(0.5, log2_); }
+
+  void addTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const Vec3d low = a.cwiseMin(b).cwiseMin(c);
+    const Vec3d high = a.cwiseMax(b).cwiseMax(c);
+    for (const Vec3d& p : {a, b, c}) cubes_.insert(Coord::round(openvdb::Vec3d(p.data())) >> log2_);
+    if ((high - low).maxCoeff() <= piece()) return;
+    const double ab = (b - a).norm();
+    const double bc = (c - b).norm();
+    const double ca = (a - c).norm();
+    if (ab >= bc && ab >= ca) return addHalves(c, a, b);
+    if (bc >= ca) return addHalves(a, b, c);
+    addHalves(b, c, a);
+  }
+  /// Cuts the side from a to b.
+  void addHalves(const Vec3d& top, const Vec3d& a, const Vec3d& b) {
+    const Vec3d middle = (a + b) / 2;
+    addTriangle(top, a, middle);
+    addTriangle(top, middle, b);
+  }
+
+  int log2_;
+  double mostPieces_;
+  bool complete_ = true;
+  std::set<Coord> cubes_;
+};
+
+/// Whether a surface may become far smaller than its control mesh, so that nothing is certain.
+bool shrinks(const PreparedSurface& surface) {
+  const auto& twin = surface.base.adjacency.twin;
+  return surface.base.boundary == BoundaryStage::kPlain &&
+         std::find(twin.begin(), twin.end(), kNone) != twin.end();
+}
+
+void addAreas(const PolygonMesh& polygons, Measure& measure) {
+  for (Index f = 0; f < polygons.faceCount(); ++f) {
+    const auto face = polygons.face(f);
+    const Vec3d twice = twiceAreaVector(
+        face.size(), [&](std::size_t i) -> const Vec3d& { return polygons.points[face[i]]; });
+    measure.area += twice.norm() / 2;
+    measure.taxicabArea += twice.cwiseAbs().sum() / 2;
+    measure.largestArea += twice.cwiseAbs().maxCoeff() / 2;
+  }
+}
+
+/// The level that an object stops at, if it stops at one whatever its faces are.
+std::optional<int> levelOf(const ConversionWay& way) {
+  const bool ofLevel = way.polygons && way.until == StopRule{way.until.levels};
+  return ofLevel ? way.until.levels : std::nullopt;
+}
+
+/// Black voxels per area. Vertices that stand closer than voxels miss some cubes that the surface
+/// only just cuts.
+double blackVoxelsOf(const ConversionWay& way, const Measure& m) {
+  constexpr double kOfCubes = 0.75;
+  if (!way.polygons) return kOfCubes * m.taxicabArea;
+  return way.separation == Separation::k26 ? m.taxicabArea : m.largestArea;
+}
+
+Measure measureOf(const PreparedSurface& surface, Cubes& leaves, Cubes& lowers) {
+  Measure measure;
+  const PolygonMesh polygons = fewPolygons(surface.base, levelOf(surface.way));
+  addAreas(polygons, measure);
+  leaves.add(polygons, measure.area);
+  lowers.add(polygons, measure.area);
+  std::vector<Index> faces(polygons.faceCount());
+  std::iota(faces.begin(), faces.end(), Index{0});
+  const auto& twin = surface.base.adjacency.twin;
+  const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
+  if (!open) measure.volume = std::max(0.0, signedVolume(polygons, faces).volume);
+  measure.blackVoxels = blackVoxelsOf(surface.way, measure);
+  return measure;
+}
+
+Measure measureOf(std::span<const PreparedSurface> surfaces) {
+  Measure all;
+  constexpr double kMostLeafPieces = 5000;
+  constexpr double kMostLowerPieces = 100000;
+  Cubes leaves(MaskLeaf::TOTAL, kMostLeafPieces);
+  Cubes lowers(MaskLower::TOTAL, kMostLowerPieces);
+  for (const PreparedSurface& surface : surfaces) {
+    const Measure one = measureOf(surface, leaves, lowers);
+    all.area += one.area;
+    all.taxicabArea += one.taxicabArea;
+    all.volume += one.volume;
+    all.blackVoxels += one.blackVoxels;
+    all.textured |= surface.texture.has_value();
+    all.smooth |= levelOf(surface.way) != 0;
+  }
+  const auto met = [&](double side) { return 1.05 * all.taxicabArea / (side * side) + 1; };
+  all.leaves = leaves.count().value_or(met(MaskLeaf::DIM));
+  all.lowers = lowers.count().value_or(met(MaskLower::DIM));
+  all.uppers = lowers.countOf(MaskUpper::TOTAL).value_or(met(MaskUpper::DIM));
+  return all;
+}
+
+constexpr double kHeap = 16;  // what the heap needs for a node
+constexpr double kFilePerUpper = 9200;
+constexpr double kFilePerLower = 1100;
+constexpr double kMoreFilePerLeaf = 50;  // of values that are all equal
+
+GridEstimate estimateMask(const Measure& m) {
+  GridEstimate grid{GridKind::kMask};
+  grid.voxels = m.blackVoxels;
+  grid.leaves = m.leaves;
+  grid.bytes = grid.leaves * (sizeof(MaskLeaf) + kHeap) + m.lowers * sizeof(MaskLower) +
+               m.uppers * sizeof(MaskUpper);
+  grid.peakBytes = grid.bytes;
+  constexpr double kFilePerLeaf = 140;
+  grid.fileBytes = grid.leaves * kFilePerLeaf + m.lowers * kFilePerLower + m.uppers * kFilePerUpper;
+  return grid;
+}
+
+double bytesOfValues(double leaves, const Measure& m) {
+  constexpr double kLeaf = sizeof(FloatLeaf) + FloatLeaf::SIZE * sizeof(float) + kHeap;
+  return leaves * kLeaf + m.lowers * sizeof(FloatLower) + m.uppers * sizeof(FloatUpper);
+}
+
+GridEstimate estimateDensity(const Measure& m, const VolumeOptions& volume) {
+  GridEstimate grid = estimateMask(m);
+  grid.kind = GridKind::kDensity;
+  const bool solid = volume.fill == Fill::kSolid;
+  if (solid) grid.voxels = m.volume + m.blackVoxels / 2;
+  grid.peakBytes = bytesOfValues(grid.leaves, m) + (solid ? 2 * grid.bytes : 0);
+  grid.bytes = bytesOfValues(grid.leaves, m);
+  grid.fileBytes += grid.leaves * kMoreFilePerLeaf;
+  return grid;
+}
+
+GridEstimate estimateSurface(const Measure& m, const VolumeOptions& volume) {
+  const double band = volume.band.value_or(kDefaultBand);
+  GridEstimate grid{GridKind::kSurface};
+  grid.voxels = 2 * band * m.area;
+  grid.leaves = std::max(m.leaves, (8 * m.taxicabArea + 2 * band * m.area) / FloatLeaf::SIZE);
+  grid.bytes = bytesOfValues(grid.leaves, m);
+  grid.peakBytes = bytesOfDistances(m.area, band).peak + grid.bytes;
+  const double filePerVoxel = volume.half.value_or(false) ? 2.6 : 4.4;
+  grid.fileBytes = grid.voxels * filePerVoxel + m.lowers * kFilePerLower + m.uppers * kFilePerUpper;
+  return grid;
+}
+
+/// Normals or colours, which vary from voxel to voxel or do not.
+GridEstimate estimateVectors(GridKind kind, const Measure& m, bool vary) {
+  using Leaf = openvdb::Vec3STree::LeafNodeType;
+  using Upper = openvdb::Vec3STree::RootNodeType::ChildNodeType;
+  GridEstimate grid = estimateMask(m);
+  grid.kind = kind;
+  constexpr double kLeaf = sizeof(Leaf) + Leaf::SIZE * sizeof(openvdb::Vec3s) + kHeap;
+  grid.bytes =
+      grid.leaves * kLeaf + m.lowers * sizeof(Upper::ChildNodeType) + m.uppers * sizeof(Upper);
+  const auto sums = VoxelMeans::bytesFor(static_cast<std::uint64_t>(grid.voxels),
+                                         static_cast<std::uint64_t>(grid.leaves));
+  grid.peakBytes = grid.bytes + static_cast<double>(sums);
+  constexpr double kMoreFilePerVoxel = 10;
+  grid.fileBytes += vary ? grid.voxels * kMoreFilePerVoxel : grid.leaves * kMoreFilePerLeaf;
+  return grid;
+}
+
+/// Largest nodes that no resolution saves: those of a compact model around the origin, or all of
+/// one that is scattered over far more than its surface fills.
+double fixedUppers(const Measure& m) {
+  constexpr double kAroundOrigin = 8;
+  constexpr double kSide = MaskUpper::DIM;
+  const bool scattered = m.uppers > kAroundOrigin + 4 * m.taxicabArea / (kSide * kSide);
+  return scattered ? m.uppers : std::min(m.uppers, kAroundOrigin);
+}
+
+GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeOptions& volume) {
+  switch (kind) {
+    case GridKind::kMask:
+      return estimateMask(m);
+    case GridKind::kDensity:
+      return estimateDensity(m, volume);
+    case GridKind::kSurface:
+      return estimateSurface(m, volume);
+    case GridKind::kNormal:
+      return estimateVectors(kind, m, m.smooth);
+    case GridKind::kColor:
+      return estimateVectors(kind, m, m.textured);
+  }
+  return {kind};
+}
+
+}  // namespace
+
+Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
+                       const VolumeOptions& volume) {
+  const Measure measure = measureOf(surfaces);
+  Estimate all;
+  const bool voxels = needsVoxels(kinds);
+  if (voxels) all.voxels = measure.blackVoxels;
+  all.bytes = voxels ? estimateMask(measure).bytes : 0;
+  double uppers = voxels ? sizeof(MaskUpper) : 0;
+  for (const GridKind kind : kinds) {
+    const GridEstimate grid = estimateOf(kind, measure, volume);
+    if (kind != GridKind::kMask) {
+      all.bytes += grid.peakBytes;
+      uppers += sizeof(openvdb::Vec3STree::RootNodeType::ChildNodeType);  // the largest
+    }
+    all.fileBytes += grid.fileBytes;
+    all.grids.push_back(grid);
+  }
+  all.fixedBytes = uppers * fixedUppers(measure);
+  all.certain = std::none_of(surfaces.begin(), surfaces.end(), shrinks);
+  return all;
+}
+
+int levelsOf(const PreparedSurface& surface, const SurfaceOptions& options,
+             const Progress& progress) {
+  const StopRule& until = surface.way.until;
+  if (const auto level = levelOf(surface.way)) return *level;
+  if (surface.way.polygons)
+    return planPolygons(surface.base, until, options.submeshFaces, progress).levels;
+  double largest = 0;
+  std::vector<Vec3d> points;
+  const PolygonMesh& mesh = surface.base.mesh;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    points.clear();
+    for (const Index v : mesh.face(f)) points.push_back(mesh.points[v]);
+    largest = std::max(largest, diameter(points));
+  }
+  // A face halves with each step.
+  return std::max(1, static_cast<int>(std::ceil(std::log2(largest / kVertexConversionSpan))));
+}
+
+std::string refusalOf(const Estimate& estimate, double longestSide, const MemoryBudget& budget) {
+  const double left = static_cast<double>(budget.left());
+  if (!estimate.certain || estimate.bytes <= kEstimateFactor * left) return {};
+  std::ostringstream text;
+  text << "the grids need about " << formatBytes(static_cast<std::uint64_t>(estimate.bytes))
+       << " of memory on top of " << formatBytes(budget.limit() - budget.left())
+       << ", the limit is " << formatBytes(budget.limit()) << "; ";
+  // Grids grow with the square of the resolution, except for their largest nodes. What is advised
+  // is to fit even if it is more than estimated.
+  const double scale = std::sqrt(std::max(0.0, left / kEstimateFactor - estimate.fixedBytes) /
+                                 (estimate.bytes - estimate.fixedBytes));
+  const double voxelSize = estimate.voxelSize / scale;
+  constexpr double kLeastScale = 1e-6;
+  if (!(scale > kLeastScale) || longestSide < voxelSize) return text.str() + kScatteredAdvice;
+  text.precision(3);
+  text << "use --dim " << static_cast<std::int64_t>(longestSide / voxelSize) << " or --voxel-size "
+       << voxelSize << ", or raise --max-memory";
+  return text.str();
+}
+
+}  // namespace vox
