@@ -335,6 +335,28 @@ expect 2 'the band must lie between 1 and 1000, not 0.2' convert good.obj -o out
 expect 2 'the tolerance must lie' convert good.obj -o out.vdb --tolerance 0 --grids surface
 expect 4 'memory' convert "$scenes/cube.toml" -o out.vdb --grids surface --dim 3000 --max-memory 256M
 
+# Sequences share one transform.
+mkdir frames
+for frame in 7 8 10; do
+  awk -v s="$frame" '$1 == "v" {print "v", $2 * s, $3 * s, $4 * s; next} {print}' "$scenes/cube.obj" \
+    >"frames/c.00$(printf %02d "$frame").obj"
+done
+expect 0 '' convert 'frames/c.####.obj' -o 'frames/c.####.vdb' --dim 40
+"$vox" info --json frames/c.0007.vdb frames/c.0008.vdb frames/c.0010.vdb >info.json
+python3 - <<'PY' || fail "a sequence"
+import json
+grids = [file["grids"][0] for file in json.load(open("info.json"))]
+assert [g["voxel_size"] for g in grids] == [[20 / 40] * 3] * 3, grids
+voxels = [g["active_voxels"] for g in grids]
+assert voxels == sorted(voxels) and voxels[0] < voxels[2], voxels
+PY
+expect 0 '' convert frames/c.0008.obj frames/c.0010.obj -o 'frames/n_%02d.vdb' --dim 40
+cmp -s frames/n_01.vdb frames/c.0008.vdb || fail "a list is not converted as the pattern is"
+expect 5 'c.0007.vdb: exists; use --force' convert 'frames/c.####.obj' -o 'frames/c.####.vdb'
+expect 2 'needs a place for a number' convert 'frames/c.####.obj' -o out.vdb
+expect 3 'd.####.obj: no file has such a name' convert 'd.####.obj' -o 'out.####.vdb'
+expect 2 'report needs a single input' convert good.obj good.obj -o 'out#.vdb' --report out.json
+
 # A dry run.
 expect 0 '' convert "$scenes/cube.toml" --dry-run --dim 256 --grids density,surface
 grep -qE '^in all: about .* MiB of memory for grids, .* MiB in the file$' stdout || fail "dry run: $(cat stdout)"

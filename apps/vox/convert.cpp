@@ -7,10 +7,12 @@
 #include "apps/vox/interrupt.h"
 #include "apps/vox/options.h"
 #include "apps/vox/progress_bar.h"
+#include "apps/vox/sequence.h"
 #include "apps/vox/verify.h"
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/stopwatch.h"
+#include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/input_file.h"
 
@@ -21,12 +23,14 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace vox::app {
 namespace {
 
 struct Options {
-  std::string input;
+  std::vector<std::string> inputs;
   std::string output;
   ConversionArguments conversion;
   std::string grids;
@@ -41,16 +45,17 @@ void sayReport(const Options& options, const FinishedRun& run) {
   const ConvertReport& report = run.conversion.report;
   for (const std::string& warning : report.warnings) say(options.common, "warning: " + warning);
   std::ostringstream line;
-  line << options.output << ": " << report.activeVoxels << " active voxels of size "
+  line << run.output << ": " << report.activeVoxels << " active voxels of size "
        << report.voxelSize;
   say(options.common, line.str());
   if (!options.common.verbose) return;
   for (const std::string& more : reportLines(run)) say(options.common, more);
 }
 
-void write(const Options& options, const Conversion& conversion, Progress& progress) {
-  if (!isStdout(options.output)) {
-    writeGrids(options.output, conversion, options.common.force, &progress);
+void write(const Options& options, const std::string& output, const Conversion& conversion,
+           Progress& progress) {
+  if (!isStdout(output)) {
+    writeGrids(output, conversion, options.common.force, &progress);
     return;
   }
   std::stringstream bytes(std::ios::in | std::ios::out | std::ios::binary);
@@ -93,11 +98,11 @@ void printEstimate(const Options& options, const Scene& scene,
 }
 
 /// Checks, before the work starts, what is to be written.
-void requireOutputs(const Options& options, const Scene& scene) {
-  requireOutput(options.output, options.common, scene);
+void requireOutputs(const Options& options, const Frame& frame, const Scene& scene) {
+  requireOutput(frame.output, options.common, scene);
   if (options.report.empty()) return;
   requireOutput(options.report, options.common, scene);
-  if (isSameFile(options.report, options.output))
+  if (isSameFile(options.report, frame.output))
     throw UsageError(options.report + ": is the output, too; choose another name");
 }
 
@@ -121,17 +126,35 @@ Conversion& conversionOfProcess() {
   return *conversion;
 }
 
-int run(const Options& options) {
-  ConvertOptions convertOptions = parse(options);
+/// One voxel size for all frames, by the box of them all, so that they share one transform. Checks
+/// all inputs and outputs on the way.
+void shareVoxelSize(const Options& options, const std::vector<Frame>& frames,
+                    ConvertOptions& convertOptions) {
+  if (!options.report.empty())
+    throw UsageError("--report needs a single input, not " + std::to_string(frames.size()));
+  Box box;
+  for (const Frame& frame : frames) {
+    const Scene scene = readScene(frame.input);
+    if (!options.dryRun) requireOutputs(options, frame, scene);
+    if (!convertOptions.dim && !convertOptions.voxelSize) {
+      convertOptions.dim = scene.dim;
+      convertOptions.voxelSize = scene.voxelSize;
+    }
+    box.add(boxOf(scene));
+  }
+  if (!convertOptions.voxelSize)
+    convertOptions.voxelSize =
+        transformForDim(box, convertOptions.dim.value_or(kDefaultDim)).voxelSize;
+  convertOptions.dim.reset();
+}
+
+void runFrame(const Options& options, const Frame& frame, ConvertOptions convertOptions) {
   ProgressBar bar(!options.common.quiet);
   const Stopwatch reading;
-  const Scene scene = readScene(options.input);
+  const Scene scene = readScene(frame.input);
   const double readSeconds = reading.seconds();
-  if (options.dryRun) {
-    printEstimate(options, scene, convertOptions);
-    return 0;
-  }
-  requireOutputs(options, scene);
+  if (options.dryRun) return printEstimate(options, scene, convertOptions);
+  requireOutputs(options, frame, scene);
 
   Progress progress(bar.callback());
   convertOptions.run.progress = &progress;
@@ -139,19 +162,27 @@ int run(const Options& options) {
   double writeSeconds = 0;
   {
     const CancelOnSignal cancelOnSignal(progress);
+    conversion = {};  // the frame before
     conversion = convert(scene, convertOptions);
     if (options.verify) verify(conversion, scene, convertOptions);
     const Stopwatch writing;
-    write(options, conversion, progress);
+    write(options, frame.output, conversion, progress);
     writeSeconds = writing.seconds();
     progress.finish();
   }
   bar.erase();
 
-  const FinishedRun finished{scene,          convertOptions, conversion,
-                             options.output, readSeconds,    writeSeconds};
+  const FinishedRun finished{scene,        convertOptions, conversion,
+                             frame.output, readSeconds,    writeSeconds};
   if (!options.report.empty()) writeReport(options, finished);
   sayReport(options, finished);
+}
+
+int run(const Options& options) {
+  ConvertOptions convertOptions = parse(options);
+  const std::vector<Frame> frames = framesOf(options.inputs, options.output);
+  if (frames.size() > 1) shareVoxelSize(options, frames, convertOptions);
+  for (const Frame& frame : frames) runFrame(options, frame, convertOptions);
   return 0;
 }
 
@@ -161,8 +192,12 @@ Action addConvert(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("convert", "Convert a mesh or scene into a smooth voxel model (.vdb)");
   const auto options = std::make_shared<Options>();
-  command->add_option("INPUT", options->input, "Scene (.toml) or mesh (.obj .ply .off .stl .om)")
-      ->required();
+  command
+      ->add_option("INPUT", options->inputs,
+                   "Scene (.toml) or mesh (.obj .ply .off .stl .om); several of them, or a pattern "
+                   "such as mesh.####.obj, become a sequence out.####.vdb with one voxel size")
+      ->required()
+      ->type_name("...");
   command->add_option("-o,--output", options->output, "OpenVDB file to write; - for stdout")
       ->type_name("OUT.vdb")
       ->group("Output");

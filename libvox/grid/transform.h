@@ -19,6 +19,10 @@ struct Box {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
+  void add(const Box& part) {
+    low = low.cwiseMin(part.low);
+    high = high.cwiseMax(part.high);
+  }
 };
 
 /// Box of the points that faces use.

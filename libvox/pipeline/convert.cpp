@@ -47,17 +47,6 @@ class StageTimer {
 
 // Resolution
 
-Box boxOf(const Scene& scene) {
-  Box box;
-  for (const SceneObject& object : scene.objects) {
-    const Box part = usedBox(object.mesh);
-    if (part.empty()) continue;
-    box.add(part.low);
-    box.add(part.high);
-  }
-  return box;
-}
-
 GridTransform chooseTransform(const Box& box, const Scene& scene, const ConvertOptions& options) {
   const bool fromOptions = options.dim || options.voxelSize;
   const auto voxelSize = fromOptions ? options.voxelSize : scene.voxelSize;
@@ -399,6 +388,12 @@ auto onOptions(const Scene& scene, const ConvertOptions& options, Work&& work) {
 }
 
 }  // namespace
+
+Box boxOf(const Scene& scene) {
+  Box box;
+  for (const SceneObject& object : scene.objects) box.add(usedBox(object.mesh));
+  return box;
+}
 
 Conversion convert(const Scene& scene, const ConvertOptions& options) {
   return onOptions(scene, options,

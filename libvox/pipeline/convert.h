@@ -2,6 +2,7 @@
 
 #include "libvox/grid/grid_kind.h"
 #include "libvox/grid/texture_spec.h"
+#include "libvox/grid/transform.h"
 #include "libvox/grid/volume_options.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/stop_rule.h"
@@ -98,6 +99,9 @@ struct Conversion {
 /// @throws LimitError  not enough memory, or coordinates or voxel size beyond the range of the grid
 /// @throws Cancelled   options.run.progress says so
 Conversion convert(const Scene& scene, const ConvertOptions& options);
+
+/// Box of all objects, world units: of its longest side are the voxels of `dim`.
+Box boxOf(const Scene& scene);
 
 /// What convert would make, without making it; besides, its warnings.
 /// @throws as convert, except that grids which do not fit are no error: see Estimate::refusal
