@@ -4,8 +4,10 @@
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -70,6 +72,35 @@ TEST_CASE("any mutated mesh is converted, or refused with an error", "[pipeline]
   }
   CHECK(converted > 500);
   CHECK(refused > 50);
+}
+
+TEST_CASE("any mutated mesh becomes solids and level sets, or is refused with an error",
+          "[pipeline][property]") {
+  int converted = 0;
+  for (std::uint32_t seed = 0; seed < 300; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const Scene scene = somethingBadTwice(random);
+    ConvertOptions options = anyOptions(random, scene.objects[0].mesh.pointCount());
+    options.grids = std::vector{GridKind::kMask, GridKind::kDensity, GridKind::kSurface};
+    options.volume.fill = Fill::kSolid;
+    options.volume.openMesh = kOpenMeshNames[1 + random() % 2].first;
+    try {
+      const Conversion conversion = convert(scene, options);
+      const auto& mask = dynamic_cast<const openvdb::MaskGrid&>(*conversion.grids[0]);
+      const auto& solid = dynamic_cast<const openvdb::FloatGrid&>(*conversion.grids[1]);
+      const auto& surface = dynamic_cast<const openvdb::FloatGrid&>(*conversion.grids[2]);
+      CHECK(solid.activeVoxelCount() >= mask.activeVoxelCount());
+      for (auto voxel = mask.cbeginValueOn(); voxel; ++voxel)
+        REQUIRE(solid.tree().isValueOn(voxel.getCoord()));
+      for (auto value = surface.cbeginValueAll(); value; ++value)
+        REQUIRE(std::abs(*value) <= surface.background());
+      ++converted;
+    } catch (const Error& error) {
+      CHECK(error.exitCode() > 0);
+    }
+  }
+  CHECK(converted > 150);
 }
 
 TEST_CASE("a mesh with one index or coordinate that means nothing is refused",

@@ -197,7 +197,7 @@ Action addConvert(CLI::App& app) {
                    "Scene (.toml) or mesh (.obj .ply .off .stl .om); several of them, or a pattern "
                    "such as mesh.####.obj, become a sequence out.####.vdb with one voxel size")
       ->required()
-      ->type_name("...");
+      ->type_name("");
   command->add_option("-o,--output", options->output, "OpenVDB file to write; - for stdout")
       ->type_name("OUT.vdb")
       ->group("Output");
