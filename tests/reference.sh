@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Converts every scene, and one per family of options, and compares the voxels with the reviewed
 # grids of tests/reference. Usage: reference.sh VOX SOURCE [--renew]
-# With --renew, the grids that differ are replaced, and what has changed in them is printed: look at
-# it, and at the grids, before you commit them.
+# With --renew, the grids that differ are replaced, with the pictures beside them, and what has changed
+# is printed: look at all of that before you commit it.
 set -uo pipefail
 vox=$(realpath "$1")
 source=$(realpath "$2")
@@ -17,36 +17,51 @@ reference() {
   local name=$1 scene=$2 kept="$source/tests/reference/$1.vdb"
   shift 2
   count=$((count + 1))
-  if ! "$vox" convert "$source/scenes/$scene" -o "$folder/$name.vdb" --grids mask --quiet --verify "$@"; then
+  if ! "$vox" convert "$source/scenes/$scene" -o "$folder/$name.vdb" --quiet "$@"; then
     wrong=$((wrong + 1))
     return
   fi
   if [ -e "$kept" ]; then
     # Metadata hold the version of vox; whole files are compared by the test of the command line.
-    "$vox" diff "$kept" "$folder/$name.vdb" --no-metadata >"$folder/$name.txt" && return
+    # Values are rounded as libraries do.
+    "$vox" diff "$kept" "$folder/$name.vdb" --no-metadata --tolerance 1e-5 >"$folder/$name.txt" && return
     sed "s/^/$name: /" "$folder/$name.txt"
   else
     echo "$name: there is no reference yet"
   fi
   if [ "$renew" = --renew ]; then
     cp "$folder/$name.vdb" "$kept"
+    "$vox" render "$kept" -o "${kept%.vdb}.png" --force --quiet --views front,iso --size 160x160
   else
     wrong=$((wrong + 1))
   fi
 }
 
+# surface_of NAME SCENE OPTIONS...: its mask, held against the surface, too.
+surface_of() {
+  reference "$@" --grids mask --verify
+}
+
 for scene in "$source"/scenes/*.toml; do
   name=$(basename "$scene" .toml)
-  reference "$name" "$name.toml" --dim 80
+  surface_of "$name" "$name.toml" --dim 80
 done
-reference jack_interior toy_jack.toml --dim 40 --interpolate interior
-reference sheet_free sheet.toml --dim 40 --boundary free
-reference sheet_boundary sheet.toml --dim 40 --interpolate boundary
-reference sheet_both sheet.toml --dim 40 --interpolate both
-reference jack_polygons toy_jack.toml --dim 40 --until levels=0
-reference jack_polygons_26 toy_jack.toml --dim 40 --until levels=0 --separating 26
-reference polyhedron_levels polyhedron.toml --dim 40 --until levels=2
-reference cube_large cube.toml --voxel-size 0.11
+surface_of jack_interior toy_jack.toml --dim 40 --interpolate interior
+surface_of sheet_free sheet.toml --dim 40 --boundary free
+surface_of sheet_boundary sheet.toml --dim 40 --interpolate boundary
+surface_of sheet_both sheet.toml --dim 40 --interpolate both
+surface_of jack_polygons toy_jack.toml --dim 40 --until levels=0
+surface_of jack_polygons_26 toy_jack.toml --dim 40 --until levels=0 --separating 26
+surface_of polyhedron_levels polyhedron.toml --dim 40 --until levels=2
+surface_of cube_large cube.toml --voxel-size 0.11
+
+reference solid toy_jack.toml --dim 32 --grids density --fill solid --gain 1
+reference level_set toy_jack.toml --dim 32 --grids surface
+reference level_set_unsigned sheet.toml --dim 32 --grids surface --open-mesh unsigned --band 2
+reference normals toy_jack.toml --dim 32 --grids density,normal --half
+reference colors textured_after.toml --dim 32 --grids density,color
+reference houdini toy_jack.toml --dim 32 --grids density,normal,color --target houdini --up z \
+  --texture 'stripes:scale=0.2'
 
 echo "$count grids, $wrong wrong"
 [ "$wrong" -eq 0 ]
