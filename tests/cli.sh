@@ -143,7 +143,7 @@ expect 3 'missing.vdb: .*no such file' render missing.vdb -o out.png
 expect 3 'cut.vdb: ' render cut.vdb -o out.png
 expect 3 'noise.vdb: ' render noise.vdb -o out.png
 expect 3 'no grid fog; there are density' render cube.vdb -o out.png --grid fog
-expect 3 'threshold' render cube.vdb -o out.png --threshold 2
+expect 3 'threshold' render cube.vdb -o out.png --threshold 1000
 expect 3 'nan.obj:1: ' render nan.obj -o out.png
 expect 4 'memory' render cube.vdb -o out.png --size 9999x9999 --max-memory 1M
 expect 5 'nowhere' render cube.vdb -o nowhere/out.png

@@ -145,6 +145,22 @@ TEST_CASE("a gain is the value of every voxel", "[solid]") {
   }
 }
 
+TEST_CASE("a voxel is opaque in Blender, whatever the unit of length", "[solid]") {
+  const auto valueFor = [](double voxelSize, Target target) {
+    ConvertOptions options = solidAt(voxelSize);
+    options.volume.target = target;
+    const Scene scene = sceneOf({scaled(test::cube(), 20 * voxelSize)});
+    return densityOf(convert(scene, options)).cbeginValueOn().getValue();
+  };
+  // Beer-Lambert: exp(-value * length) of the light passes.
+  for (const double voxelSize : {0.001, 0.05, 3.0, 1000.0})
+    CHECK(std::exp(-voxelSize * static_cast<double>(valueFor(voxelSize, Target::kBlender))) <
+          0.0025);
+  CHECK(valueFor(1000, Target::kBlender) >= 1);     // Blender drops values up to 0.001
+  CHECK(valueFor(2e-5, Target::kBlender) < 65504);  // the largest half float
+  CHECK(valueFor(0.001, Target::kHoudini) == 1);
+}
+
 TEST_CASE("any number of threads makes the same solid", "[solid][parallel]") {
   const Scene scene =
       sceneOf({test::together(test::torusGrid(24, 12), test::insideOut(test::torusGrid(12, 6)),

@@ -6,6 +6,7 @@
 Or open this file in Blender's Text Editor and run it: File > Import then has "Voxel model (.vdb)".
 """
 
+import struct
 import sys
 
 import bpy
@@ -24,11 +25,32 @@ def grids_of(volume):
     return {grid.name: grid for grid in grids}
 
 
+def gain_of(path):
+    """The value of density at the voxels of a file of vox; 1 if the file does not say.
+
+    A .vdb begins with 21 bytes of magic number, versions and flags and 36 of a unique name. Then it
+    counts its metadata, each a name, a type and a value, all with their lengths before them.
+    """
+    with open(path, "rb") as file:
+        if file.read(21 + 36)[:4] != b" BDV":
+            return 1.0
+
+        def sized():
+            return file.read(struct.unpack("<I", file.read(4))[0])
+
+        (count,) = struct.unpack("<I", file.read(4))
+        metadata = {}
+        for _ in range(count):
+            name, kind = sized(), sized()
+            metadata[name, kind] = sized()
+    return struct.unpack("<f", metadata.get((b"vox_gain", b"float"), struct.pack("<f", 1)))[0]
+
+
 def add_material(volume):
     """A material of the grids that are there.
 
     The grid color is 0 outside the voxels, and so is density: where Blender mixes neighbours,
-    color / density is the colour of those voxels that are there. With the grid normal, the light is
+    color / (density / gain) is the colour of those voxels that are there. With the grid normal, the light is
     computed by the material; without, the volume scatters the light of the scene.
     """
     grids = grids_of(volume)
@@ -56,10 +78,13 @@ def add_material(volume):
                 socket.default_value = value
         return made
 
-    density = node("ShaderNodeAttribute", (-900, 0), attribute_name="density")
+    value = node("ShaderNodeAttribute", (-1150, 0), attribute_name="density")
+    density = node("ShaderNodeMath", (-900, 0), operation="DIVIDE")
+    density.inputs[1].default_value = gain_of(bpy.path.abspath(volume.data.filepath))
+    links.new(value.outputs["Fac"], density.inputs[0])
     depth = node("ShaderNodeMath", (-200, -200), operation="MULTIPLY")
     depth.inputs[1].default_value = DEPTH_OF_VOXEL / voxel
-    links.new(density.outputs["Fac"], depth.inputs[0])
+    links.new(density.outputs[0], depth.inputs[0])
     shader = node("ShaderNodeVolumePrincipled", (0, 0))
     shader.inputs["Density Attribute"].default_value = ""
     links.new(depth.outputs[0], shader.inputs["Density"])
@@ -67,7 +92,7 @@ def add_material(volume):
     color = None
     if "color" in grids:
         attribute = node("ShaderNodeAttribute", (-900, 250), attribute_name="color")
-        divided = vector_math("DIVIDE", (-650, 250), attribute.outputs["Vector"], density.outputs["Fac"])
+        divided = vector_math("DIVIDE", (-650, 250), attribute.outputs["Vector"], density.outputs[0])
         color = divided.outputs[0]
         links.new(color, shader.inputs["Color"])
     if "normal" in grids:

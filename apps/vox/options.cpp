@@ -200,7 +200,9 @@ void addVolumeOptions(CLI::App& command, VolumeArguments& arguments) {
   command
       .add_option_function<double>(
           "--gain", [&arguments](double gain) { arguments.gain = gain; },
-          "Value of density (default: the scene's, or 1)")
+          "Value of density (default: the scene's, or for Blender 6 / voxel size, at least 1, "
+          "which "
+          "makes a surface opaque there; for Houdini 1)")
       ->type_name("G")
       ->group("Output");
   command

@@ -49,7 +49,7 @@ inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxi
 /// How to make volumes, as far as somebody said.
 struct VolumeOptions {
   std::optional<Fill> fill;          ///< default: kSurface
-  std::optional<double> gain;        ///< value of `density` at its voxels; default 1
+  std::optional<double> gain;        ///< value of `density` at its voxels; see densityValue()
   std::optional<OpenMesh> openMesh;  ///< default: kSurface
   std::optional<double> band;        ///< half width of `surface` in voxels; default 3
   std::optional<double> tolerance;   ///< of the polygons it is made from, in voxels; default 0.05

@@ -22,6 +22,7 @@
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/pipeline/work.h"
+#include "libvox/volume/density.h"
 
 #include <openvdb/openvdb.h>
 
@@ -410,6 +411,8 @@ Estimate estimate(const Scene& scene, const ConvertOptions& options,
 void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress) {
   openvdb::MetaMap metadata;
   metadata.insertMeta("creator", openvdb::StringMetadata(std::string("vox ") + version()));
+  for (const auto& grid : conversion.grids)
+    if (const auto gain = (*grid)[kGainMetadata]) metadata.insertMeta(kGainMetadata, *gain);
   if (progress == nullptr)
     return writeVdb(stream, conversion.grids, metadata, conversion.compression);
   progress->beginLast("write");

@@ -30,8 +30,10 @@ openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
     tree = solid.get();
   }
   budget.take(bytesOfGrid<openvdb::FloatTree>(*tree), "the density grid", kScatteredAdvice);
-  auto density = densityGrid(*tree, static_cast<float>(volume.gain.value_or(1)));
+  const auto value = static_cast<float>(densityValue(volume, mask.voxelSize()[0]));
+  auto density = densityGrid(*tree, value);
   density->setTransform(mask.transform().copy());
+  density->insertMeta(kGainMetadata, openvdb::FloatMetadata(value));
   return density;
 }
 

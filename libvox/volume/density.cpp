@@ -2,7 +2,17 @@
 
 #include "libvox/volume/density.h"
 
+#include <algorithm>
+
 namespace vox {
+
+double densityValue(const VolumeOptions& options, double voxelSize) {
+  constexpr double kDepthOfVoxel = 6;
+  constexpr double kMost = 60000;  // what half floats hold
+  if (options.gain) return *options.gain;
+  if (options.target == Target::kHoudini) return 1;
+  return std::clamp(kDepthOfVoxel / voxelSize, 1.0, kMost);
+}
 
 openvdb::FloatGrid::Ptr densityGrid(const openvdb::MaskTree& mask, float value) {
   constexpr float kBackground = 0;

@@ -1,8 +1,19 @@
 #pragma once
 
+#include "libvox/grid/volume_options.h"
+
 #include <openvdb/openvdb.h>
 
 namespace vox {
+
+/// Metadata of a grid `density`, and of its file: the value at its voxels (float).
+inline constexpr const char* kGainMetadata = "vox_gain";
+
+/// What `density` holds at its voxels: the gain, or what suits the target. Blender takes densities
+/// per unit of length, so that a shell one voxel thick is opaque there from 6 / voxel size on
+/// (exp(-6) of the light passes), and drops voxels of next to nothing: 1 at least.
+/// @param voxelSize  world units
+double densityValue(const VolumeOptions& options, double voxelSize);
 
 /// Fog volume `density`: `value` at the voxels and tiles of the mask, background 0.
 openvdb::FloatGrid::Ptr densityGrid(const openvdb::MaskTree& mask, float value = 1);

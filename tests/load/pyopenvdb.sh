@@ -22,7 +22,8 @@ assert density.activeVoxelCount() > 1000
 assert abs(density.transform.voxelSize()[0] - 2 / 100) < 1e-15
 assert density.background == 0
 values = {item.value for item in density.citerOnValues()}
-assert values == {1.0}, values
+assert values == {300.0}, values  # opaque in Blender: 6 / voxel size
+assert density["vox_gain"] == 300 and metadata["vox_gain"] == 300, metadata
 low, high = density.evalActiveVoxelBoundingBox()
 assert low == (-50, -50, -50) and high == (50, 50, 50), (low, high)  # arm caps stay in place
 assert density["vox_guarantee"] == "6-separating"
