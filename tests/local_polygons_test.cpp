@@ -2,9 +2,11 @@
 
 #include "libvox/grid/transform.h"
 #include "libvox/localize/partition.h"
+#include "libvox/mesh/area_vector.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/prepare/repair.h"
 #include "libvox/subdivide/doo_sabin.h"
+#include "libvox/subdivide/stop.h"
 #include "tests/shapes.h"
 
 #include <Eigen/Geometry>
@@ -237,6 +239,50 @@ TEST_CASE("no face is larger than the rule says", "[subdivide][property]") {
       CHECK(largestDiameter(refinedTo(base, StopRule{{}, limit})) <= limit * (1 + 1e-12));
     }
   });
+}
+
+TEST_CASE("neighbouring quads turn no more than the rule says", "[subdivide][property]") {
+  double most = 0;
+  forShapes([&](SubdivisionLevel base) {
+    for (Vec3d& p : base.mesh.points) p *= 30;
+    for (const double limit : {30.0, 12.0}) {
+      CAPTURE(limit);
+      StopRule until;
+      until.angle = limit;
+      const PolygonMesh mesh = refinedTo(base, until);
+      const Adjacency adjacency = buildAdjacency(mesh);
+      const auto normalOf = [&](Index f) {
+        const auto face = mesh.face(f);
+        return twiceAreaVector(face.size(), [&](std::size_t i) { return mesh.points[face[i]]; });
+      };
+      // Triangles stand where levels meet, and quads at boundaries.
+      std::vector<bool> mayTurn(mesh.pointCount());
+      for (Index c = 0; c < mesh.cornerCount(); ++c)
+        if (mesh.faceSize(adjacency.cornerFace[c]) != 4 || adjacency.twin[c] == kNone)
+          mayTurn[mesh.faceVertices[c]] = true;
+      const auto counts = [&](Index f) {
+        std::vector<Vec3d> corners;
+        for (const Index v : mesh.face(f)) {
+          if (mayTurn[v]) return false;
+          corners.push_back(mesh.points[v]);
+        }
+        return diameter(corners) > 1;
+      };
+      for (Index c = 0; c < mesh.cornerCount(); ++c) {
+        const Index twin = adjacency.twin[c];
+        if (twin == kNone) continue;
+        const Index f = adjacency.cornerFace[c];
+        const Index g = adjacency.cornerFace[twin];
+        if (!counts(f) || !counts(g)) continue;
+        const Vec3d a = normalOf(f);
+        const Vec3d b = normalOf(g);
+        const double angle = std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI;
+        CHECK(angle <= limit + 1e-6);
+        most = std::max(most, angle / limit);
+      }
+    }
+  });
+  CHECK(most > 0.5);  // the bound is not idle
 }
 
 TEST_CASE("the polygons are as near the smooth surface as the rule says", "[subdivide][property]") {
