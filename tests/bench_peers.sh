@@ -36,6 +36,27 @@ assert grids[0]["voxel_size"] == grids[1]["voxel_size"]
 PYTHON
 done
 
+# A contest names what is absent, and has numbers for the rest.
+mkdir plots
+"$bench/vox_bench_pair" -q --compare torus --dims 48,32 --runs 1 --vox "$vox" --json contest.json \
+  --plots plots >contest.md
+grep -q '^### torus at 48$' contest.md
+python3 - <<'PYTHON'
+import json
+import xml.etree.ElementTree
+
+contest = json.load(open("contest.json"))["contests"][0]
+assert contest["dims"] == [32, 48]
+for contender in contest["contenders"]:
+    first = contender["at_dims"][0]
+    print(contender["name"], first["status"], first["active_voxels"])
+    if contender["name"].startswith("vox"):
+        assert all(side["status"] == "ok" and side["active_voxels"] > 0 for side in contender["at_dims"])
+    else:
+        assert first["status"] in ("ok", "absent"), first
+xml.etree.ElementTree.parse("plots/torus_time.svg")
+PYTHON
+
 "$bench/vox_bench_pair" -q --scaling torus --dims 32,64,128 --runs 1 --vox "$vox" --json scaling.json
 python3 - <<'PYTHON'
 import json

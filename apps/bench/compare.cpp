@@ -42,6 +42,16 @@ Comparison compare(const std::string& name, const Program& a, const Program& b, 
   return comparison;
 }
 
+std::vector<Side> measureInTurn(const std::string& name, const std::vector<Program>& programs,
+                                int runs, const Limits& limits, const Progress& progress) {
+  std::vector<Side> sides;
+  for (const Program& program : programs) sides.push_back({.program = program});
+  std::vector<Side*> all;
+  for (Side& side : sides) all.push_back(&side);
+  runInTurn(name, all, runs, limits, progress);
+  return sides;
+}
+
 Side measure(const Program& program, int runs, const Limits& limits, const Progress& progress) {
   Side side{.program = program};
   runInTurn(program.name, {&side}, runs, limits, progress);

@@ -50,6 +50,10 @@ using Progress = std::function<void(const std::string&)>;
 Comparison compare(const std::string& name, const Program& a, const Program& b, int pairs,
                    const Limits& limits, const Progress& progress);
 
+/// Runs of programs in turn: A B C A B C ... Those that do not succeed are not run again.
+std::vector<Side> measureInTurn(const std::string& name, const std::vector<Program>& programs,
+                                int runs, const Limits& limits, const Progress& progress);
+
 /// One program alone.
 Side measure(const Program& program, int runs, const Limits& limits, const Progress& progress);
 

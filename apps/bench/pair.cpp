@@ -2,6 +2,7 @@
 // replaces, and how the cost of vox grows with its output.
 
 #include "apps/bench/compare.h"
+#include "apps/bench/contest_report.h"
 #include "apps/bench/report.h"
 #include "apps/bench/scaling.h"
 #include "apps/bench/suite.h"
@@ -28,6 +29,8 @@ struct Options {
   std::string only;
   UserInput input;
   std::string scaling;
+  std::vector<std::string> contest;
+  std::string plots;
   std::vector<int> dims = {256, 512, 1024};
   int threads = std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
   int runs = 5;
@@ -88,6 +91,21 @@ void declareSuites(CLI::App& app, Options& options) {
       ->check(CLI::PositiveNumber);
 }
 
+void declareContest(CLI::App& app, Options& options) {
+  CLI::App* group = app.add_option_group("Contest");
+  CLI::Option* contest =
+      group
+          ->add_option("--compare", options.contest,
+                       "vox against what people would use instead, as Markdown: mesh files or "
+                       "generated meshes, with commas")
+          ->delimiter(',')
+          ->type_name("INPUT,...");
+  group->add_option("--plots", options.plots, "Draw time and memory against dim (SVG) there, too")
+      ->needs(contest)
+      ->check(CLI::ExistingDirectory)
+      ->type_name("FOLDER");
+}
+
 void declareScaling(CLI::App& app, Options& options) {
   CLI::App* group = app.add_option_group("Scaling");
   CLI::Option* scaling =
@@ -95,8 +113,7 @@ void declareScaling(CLI::App& app, Options& options) {
           ->add_option("--scaling", options.scaling,
                        "Growth of time and memory with the output: a mesh file or a generated mesh")
           ->type_name("INPUT");
-  group->add_option("--dims", options.dims, "Resolutions, with commas")
-      ->needs(scaling)
+  group->add_option("--dims", options.dims, "Resolutions, with commas; of a contest, too")
       ->delimiter(',')
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -129,6 +146,7 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("A", options.commandA, "First command, one word to the shell: 'vox info a.obj'");
   app.add_option("B", options.commandB, "Second command; ratios are B / A");
   declareSuites(app, options);
+  declareContest(app, options);
   declareScaling(app, options);
   declareRun(app, options);
 }
@@ -136,10 +154,17 @@ void declare(CLI::App& app, Options& options) {
 /// @throws CLI::ValidationError  not exactly one thing is asked for
 void requireOneTask(const Options& options) {
   const bool commands = !options.commandA.empty();
-  if (commands + !options.suite.empty() + !options.scaling.empty() != 1)
-    throw CLI::ValidationError("give two commands, or --suite, or --scaling");
+  if (commands + !options.suite.empty() + !options.scaling.empty() + !options.contest.empty() != 1)
+    throw CLI::ValidationError("give two commands, or --suite, --compare or --scaling");
   if (commands && options.commandB.empty())
     throw CLI::ValidationError("give a second command to compare with");
+}
+
+void write(const std::string& file, const std::string& text) {
+  std::ofstream out(file);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
 class Run {
@@ -164,6 +189,11 @@ class Run {
       json["scaling"] = jsonOf(scaling);
       return json;
     }
+    if (!options_.contest.empty()) {
+      json["contests"] = nlohmann::ordered_json::array();
+      for (const std::string& input : options_.contest) json["contests"].push_back(hold(input));
+      return json;
+    }
     json["comparisons"] = nlohmann::ordered_json::array();
     for (const Case& one : cases()) {
       if (one.name.find(options_.only) == std::string::npos) continue;
@@ -176,6 +206,18 @@ class Run {
   }
 
  private:
+  nlohmann::ordered_json hold(const std::string& input) const {
+    const Contest contest = holdContest(tools_, input, options_.dims, options_.runs,
+                                        options_.limits, folder_.path(), progress_);
+    std::cout << markdownOf(contest) << std::flush;
+    if (!options_.plots.empty()) {
+      const std::string stem = (options_.plots / std::filesystem::path(input).stem()).string();
+      write(stem + "_time.svg", svgOf(timePlot(contest)));
+      write(stem + "_memory.svg", svgOf(memoryPlot(contest)));
+    }
+    return jsonOf(contest);
+  }
+
   std::vector<Case> cases() const {
     if (!options_.suite.empty())
       return suiteCases(options_.suite, tools_, options_.input, folder_.path());
@@ -212,10 +254,7 @@ int run(int argc, char** argv) {
     requireOneTask(options);
     const nlohmann::ordered_json json = Run(options).measureAll();
     if (options.json.empty()) return 0;
-    std::ofstream out(options.json);
-    out << json.dump(2) << '\n';
-    out.close();
-    if (!out) throw std::runtime_error(options.json + ": cannot be written");
+    write(options.json, json.dump(2) + "\n");
     return 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsage;

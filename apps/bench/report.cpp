@@ -81,19 +81,6 @@ std::string outcomeName(Outcome outcome) {
   return "";
 }
 
-Json sideJson(const Side& side) {
-  return {{"name", side.program.name},
-          {"command", side.program.command},
-          {"status", outcomeName(side.last.outcome)},
-          {"detail", describe(side.last)},
-          {"exit_code", side.last.exitCode},
-          {"runs", side.wallSeconds.size()},
-          {"wall_seconds", rangeJson(side.wallSeconds)},
-          {"cpu_seconds", rangeJson(side.cpuSeconds)},
-          {"peak_bytes", rangeJson(side.peakBytes)},
-          {"active_voxels", optionalJson(side.voxels)}};
-}
-
 Json exponentsJson(const Exponents& exponents) {
   return {{"wall", optionalJson(exponents.wall)},
           {"cpu", optionalJson(exponents.cpu)},
@@ -152,10 +139,23 @@ std::string tableOf(const Scaling& scaling) {
   return out.str();
 }
 
+Json jsonOf(const Side& side) {
+  return {{"name", side.program.name},
+          {"command", side.program.command},
+          {"status", outcomeName(side.last.outcome)},
+          {"detail", describe(side.last)},
+          {"exit_code", side.last.exitCode},
+          {"runs", side.wallSeconds.size()},
+          {"wall_seconds", rangeJson(side.wallSeconds)},
+          {"cpu_seconds", rangeJson(side.cpuSeconds)},
+          {"peak_bytes", rangeJson(side.peakBytes)},
+          {"active_voxels", optionalJson(side.voxels)}};
+}
+
 Json jsonOf(const Comparison& comparison) {
   return {{"name", comparison.name},
-          {"a", sideJson(comparison.a)},
-          {"b", sideJson(comparison.b)},
+          {"a", jsonOf(comparison.a)},
+          {"b", jsonOf(comparison.b)},
           {"ratio",
            {{"wall", rangeJson(comparison.wallRatios())},
             {"cpu", rangeJson(comparison.cpuRatios())},
@@ -167,12 +167,12 @@ Json jsonOf(const Scaling& scaling) {
   Json points = Json::array();
   for (const ScalingPoint& point : scaling.points)
     points.push_back({{"dim", point.dim},
-                      {"one_thread", sideJson(point.threads.a)},
-                      {"threads", sideJson(point.threads.b)},
+                      {"one_thread", jsonOf(point.threads.a)},
+                      {"threads", jsonOf(point.threads.b)},
                       {"efficiency", optionalJson(point.efficiency(scaling.threads))}});
   return {{"input", scaling.input},
           {"threads", scaling.threads},
-          {"floor", sideJson(scaling.floor)},
+          {"floor", jsonOf(scaling.floor)},
           {"points", points},
           {"exponents", exponentsJson(scaling.whole)},
           {"exponents_above_floor", exponentsJson(scaling.aboveFloor)}};

@@ -17,6 +17,9 @@ std::string tableOf(const Scaling& scaling);
 nlohmann::ordered_json jsonOf(const Comparison& comparison);
 nlohmann::ordered_json jsonOf(const Scaling& scaling);
 
+/// What one program took.
+nlohmann::ordered_json jsonOf(const Side& side);
+
 /// The machine that measures: its processor, number of processors and bytes of memory.
 nlohmann::ordered_json machineJson();
 

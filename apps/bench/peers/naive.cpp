@@ -127,16 +127,18 @@ double largestSpan(const PolygonMesh& mesh) {
   return largest;
 }
 
-void voxelize(const PolygonMesh& meshIndex, double span, openvdb::MaskGrid& mask) {
+openvdb::GridBase::Ptr voxelize(const PolygonMesh& meshIndex, double span) {
   PolygonMesh mesh = dooSabin(meshIndex);
   while (largestSpan(mesh) > span) mesh = dooSabin(mesh);
-  auto voxels = mask.getAccessor();
+  const auto mask = vox::peer::newMask();
+  auto voxels = mask->getAccessor();
   for (const Vec3d& p : mesh.points) voxels.setValueOn(vox::peer::voxelOf(p.x(), p.y(), p.z()));
+  return mask;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return vox::peer::run(argc, argv, "vox_peer_naive",
-                        "Doo-Sabin on one thread, down to the voxel, and rounding.", voxelize);
+  CLI::App app("Doo-Sabin on one thread, down to the voxel, and rounding.", "vox_peer_naive");
+  return vox::peer::run(argc, argv, app, voxelize);
 }

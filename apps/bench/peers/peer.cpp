@@ -2,8 +2,6 @@
 
 #include "libvox/io/read_mesh.h"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -39,12 +37,10 @@ void convert(const Options& options, const Voxelize& voxelize) {
   if (!(voxelSize > 0)) throw std::runtime_error(options.input + ": all points are equal");
   for (Vec3d& point : mesh.points) point /= voxelSize;
 
-  const auto mask = openvdb::MaskGrid::create();
-  mask->setName("mask");
-  mask->setTransform(openvdb::math::Transform::createLinearTransform(voxelSize));
-  voxelize(mesh, options.span, *mask);
-  openvdb::io::File(options.output).write({mask});
-  std::cout << options.output << ": " << mask->activeVoxelCount() << " active voxels\n";
+  const auto grid = voxelize(mesh, options.span);
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(voxelSize));
+  openvdb::io::File(options.output).write({grid});
+  std::cout << options.output << ": " << grid->activeVoxelCount() << " active voxels\n";
 }
 
 double distance(const Vec3d& a, const Vec3d& b) {
@@ -53,9 +49,8 @@ double distance(const Vec3d& a, const Vec3d& b) {
 
 }  // namespace
 
-int run(int argc, char** argv, const std::string& name, const std::string& what,
-        const Voxelize& voxelize) {
-  CLI::App app(what, name);
+int run(int argc, char** argv, CLI::App& app, const Voxelize& voxelize) {
+  const std::string& name = app.get_name();
   Options options;
   app.add_option("INPUT", options.input, "Mesh")->required();
   app.add_option("-o,--output", options.output, "OpenVDB file to write")->required();
@@ -79,6 +74,12 @@ int run(int argc, char** argv, const std::string& name, const std::string& what,
     std::cerr << name << ": error: " << error.what() << '\n';
     return kFailed;
   }
+}
+
+openvdb::MaskGrid::Ptr newMask() {
+  const auto mask = openvdb::MaskGrid::create();
+  mask->setName("mask");
+  return mask;
 }
 
 double spanOf(std::span<const Vec3d> corners) {

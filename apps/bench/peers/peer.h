@@ -2,20 +2,19 @@
 
 #include "libvox/mesh/polygon_mesh.h"
 
+#include <CLI/CLI.hpp>
 #include <openvdb/openvdb.h>
 
 #include <functional>
 #include <span>
-#include <string>
 
-/// What the peers share: programs that do what `vox convert --grids mask` does in the way its user
-/// would otherwise have done it. libvox only reads the mesh for them.
+/// What the peers share: programs that do what `vox convert` does in the way its user would
+/// otherwise have done it. libvox only reads the mesh for them.
 namespace vox::peer {
 
 /// Refines a closed or open manifold, in voxels, until no face is longer than `span` (spanOf), once
-/// at least, and activates the voxels of its points.
-using Voxelize =
-    std::function<void(const PolygonMesh& meshIndex, double span, openvdb::MaskGrid& mask)>;
+/// at least, and makes a grid of it, in index space and with its name.
+using Voxelize = std::function<openvdb::GridBase::Ptr(const PolygonMesh& meshIndex, double span)>;
 
 /// Faces up to 1 leave no tunnel between the voxels of their corners. vox stops at this instead,
 /// for rounding, and so do the peers, to do the same work for the same voxels; `--span 1` makes a
@@ -23,11 +22,14 @@ using Voxelize =
 /// earlier.
 inline constexpr double kDefaultSpan = 0.999;
 
-/// Program `name`: reads a mesh, scales it to `--dim` voxels along the longest side of its box
-/// (world = voxel size x index), voxelizes it, writes grid "mask" to a file and prints "N active
-/// voxels". Returns the exit code: 0; 1 cannot be read, converted or written; 4 out of memory.
-int run(int argc, char** argv, const std::string& name, const std::string& what,
-        const Voxelize& voxelize);
+/// Reads a mesh, scales it to `--dim` voxels along the longest side of its box (world = voxel size
+/// x index), voxelizes it, writes the grid to a file and prints "N active voxels". Returns the exit
+/// code: 0; 1 cannot be read, converted or written; 4 out of memory.
+/// @param app  with the name of the program, and options of its own
+int run(int argc, char** argv, CLI::App& app, const Voxelize& voxelize);
+
+/// An empty grid "mask".
+openvdb::MaskGrid::Ptr newMask();
 
 /// Longest L-inf edge of a triangulated face: the better diagonal of a quad, the diameter of
 /// others.
