@@ -7,10 +7,10 @@
 namespace vox::bench {
 namespace {
 
-constexpr double kWidth = 860;
+constexpr double kWidth = 900;
 constexpr double kHeight = 440;
 constexpr double kLeft = 60;
-constexpr double kRight = 290;  // the legend
+constexpr double kRight = 330;  // the legend
 constexpr double kTop = 40;
 constexpr double kBottom = 50;
 /// Told apart by most colour-blind people (Okabe and Ito).
