@@ -2,13 +2,13 @@
 add_library(vox_warnings INTERFACE)
 target_compile_options(vox_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Wold-style-cast
-  -Wno-restrict  # GCC 12 gives false alarms for std::string (its bug 105651)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # GCC 12 gives false alarms for std::string (its bug 105651)
   -ffp-contract=off  # the same bits on processors with and without fused multiply-add
 )
 if(VOX_SANITIZE)
   add_compile_options(-fsanitize=${VOX_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   # GCC 12 gives false alarms in the standard library when its code is instrumented.
-  target_compile_options(vox_warnings INTERFACE -Wno-maybe-uninitialized)
+  target_compile_options(vox_warnings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   add_link_options(-fsanitize=${VOX_SANITIZE})
 endif()
 if(VOX_COVERAGE)

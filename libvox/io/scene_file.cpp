@@ -412,8 +412,7 @@ void requireShallowKeys(const SceneText& text, std::string_view content) {
   }
 }
 
-void parseToml(const fs::path& file, SceneText& text) {
-  const std::string content = contentsOf(file);
+void parseToml(const fs::path& file, std::string_view content, SceneText& text) {
   text.file = file;
   text.hash.addFile(content);
   requireShallowKeys(text, content);
@@ -424,9 +423,11 @@ void parseToml(const fs::path& file, SceneText& text) {
   }
 }
 
-Scene readTomlScene(const fs::path& file) {
+}  // namespace
+
+Scene parseScene(const fs::path& file, std::string_view content) {
   SceneText text;
-  parseToml(file, text);
+  parseToml(file, content, text);
   Scene scene;
   scene.files.push_back(file);
   requireKnownKeys(text, text.root, "the scene", {"convert", "object"});
@@ -440,10 +441,8 @@ Scene readTomlScene(const fs::path& file) {
   return scene;
 }
 
-}  // namespace
-
 Scene readScene(const fs::path& file) {
-  if (lowerExtension(file) == ".toml") return readTomlScene(file);
+  if (lowerExtension(file) == ".toml") return parseScene(file, contentsOf(file));
   Scene scene;
   ContentHash hash;
   scene.files.push_back(file);

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vox {
@@ -50,5 +51,8 @@ struct Scene {
 /// @throws InputError  unreadable or malformed; unknown keys and wrong types are named as
 ///   "FILE:LINE:COLUMN: ..."
 Scene readScene(const std::filesystem::path& file);
+
+/// The same from the content of a scene file; the name stands in messages and gives the folder.
+Scene parseScene(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace vox
