@@ -13,6 +13,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vox::app {
@@ -26,6 +27,11 @@ constexpr int kInternal = 70;  // a bug of ours: EX_SOFTWARE
 int fail(const std::string& message, int code) {
   std::cerr << "vox: error: " << onOneLine(message) << '\n';
   return code;
+}
+
+/// TBB says in words alone that a thread could not be started, for want of memory mostly.
+bool isLackOfThreads(const std::exception& error) {
+  return std::string_view(error.what()).starts_with("pthread_create has failed");
 }
 
 std::vector<std::string> optionNames(const CLI::App& command) {
@@ -133,6 +139,8 @@ int main(int argc, char** argv) {
   } catch (const std::ios_base::failure& error) {
     return fail(error.what(), kIo);
   } catch (const std::exception& error) {
+    if (isLackOfThreads(error))
+      return fail("no memory for another thread; use fewer --threads or allow more memory", kLimit);
     return fail(std::string("internal error, please report it: ") + error.what(), kInternal);
   }
 }
