@@ -152,6 +152,10 @@ def outcome(vox, mesh, target, options):
     return "FAILED: exit code %d: %s" % (run.returncode, run.stderr[:500])
 
 
+def told(counts):
+    return ", ".join("%d %s" % (n, what) for what, n in counts.most_common())
+
+
 def main():
     vox, folder, count = sys.argv[1:4]
     first = int(sys.argv[4]) if len(sys.argv) > 4 else 0
@@ -172,7 +176,9 @@ def main():
                 failures += 1
                 shutil.copy(mesh, "mutant-%d.obj" % seed)
                 print("seed %d, %s: %s" % (seed, " ".join(options), what), flush=True)
-    print(", ".join("%d %s" % (n, what) for what, n in counts.most_common()))
+            if (seed - first) % 100 == 99:
+                print("so far: " + told(counts), file=sys.stderr, flush=True)
+    print(told(counts))
     sys.exit(failures > 0)
 
 
