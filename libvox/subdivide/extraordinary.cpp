@@ -15,11 +15,6 @@ Vec3d middle(const Vec3d& a, const Vec3d& b) {
   return (a + b) / 2.0;
 }
 
-double quadDiameter(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
-  const std::array<Vec3d, 4> corners = {a, b, c, d};
-  return diameter(corners);
-}
-
 double faceDiameter(const ExtraordinaryFace& face, std::vector<Vec3d>& work) {
   if (!face.mirrored()) return diameter(face.inner);
   work.assign(face.inner.begin(), face.inner.begin() + static_cast<std::ptrdiff_t>(face.real));
@@ -33,10 +28,10 @@ double edgeDiameter(const ExtraordinaryFace& face, std::size_t i) {
   const Vec3d& a = face.inner[i];
   const Vec3d& b = face.inner[face.after(i)];
   if (face.mirrored() && i == face.real - 1)
-    return quadDiameter(a, middle(a, b), middle(face.near[i], face.far[i]), face.near[i]);
+    return diameter(a, middle(a, b), middle(face.near[i], face.far[i]), face.near[i]);
   if (face.mirrored() && i + 1 == face.inner.size())
-    return quadDiameter(b, middle(a, b), middle(face.near[i], face.far[i]), face.far[i]);
-  return quadDiameter(a, b, face.far[i], face.near[i]);
+    return diameter(b, middle(a, b), middle(face.near[i], face.far[i]), face.far[i]);
+  return diameter(a, b, face.far[i], face.near[i]);
 }
 
 /// Largest diameter of the faces that touch corner i only or across an edge.
@@ -46,7 +41,7 @@ double diameterAround(const ExtraordinaryFace& face, std::size_t i) {
   if (face.hasEdge[i]) size = edgeDiameter(face, i);
   if (face.hasEdge[j]) size = std::max(size, edgeDiameter(face, j));
   if (face.hasCorner[i])
-    size = std::max(size, quadDiameter(face.inner[i], face.near[i], face.corner[i], face.far[j]));
+    size = std::max(size, diameter(face.inner[i], face.near[i], face.corner[i], face.far[j]));
   return size;
 }
 
@@ -171,9 +166,9 @@ void subdivideBoundaryCorner(BoundaryCorner at, int level, SurfaceSink& sink) {
     requireLevelInRange(level);
     const std::array<Vec3d, 3> triangle = {at.u, at.mStart, at.mEnd};
     const double size =
-        std::max({diameter(triangle), quadDiameter(at.u, at.right, at.mRight, at.mStart),
-                  quadDiameter(at.u, at.left, at.mLeft, at.mEnd),
-                  quadDiameter(at.u, at.right, at.opposite, at.left)});
+        std::max({diameter(triangle), diameter(at.u, at.right, at.mRight, at.mStart),
+                  diameter(at.u, at.left, at.mLeft, at.mEnd),
+                  diameter(at.u, at.right, at.opposite, at.left)});
     if (size <= kVertexConversionSpan) return sink.points({&at.u, 1}, level);
     const VertexSplit split = at.split();
     split.emitSides(level + 1, sink);

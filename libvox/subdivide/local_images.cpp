@@ -166,8 +166,7 @@ void LocalImages::addEdge(Index slot, Index corner) {
     edge.near = mirror(a, nearReal);
     edge.far = mirror(b, farReal);
   }
-  const std::array<Vec3d, 4> quad = {a, b, nearReal, farReal};
-  edge.diameter = diameter(quad);
+  edge.diameter = diameter(a, b, nearReal, farReal);
 }
 
 }  // namespace vox

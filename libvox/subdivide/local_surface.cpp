@@ -11,6 +11,7 @@ void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
   images_.set(faces);
   const std::size_t starPoints = images_.starPoints().size();
   starKnown_.assign(images_.stars().size(), false);
+  starDiameters_.resize(images_.stars().size());
   starActive_.assign(starPoints, false);
   for (auto* points : {&starImages_, &starNear_, &starFar_, &starCorner_})
     points->resize(starPoints);
@@ -32,29 +33,35 @@ void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
 void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
   const auto points = images_.imagesOfFace(firstSlot, size);
   const double faceDiameter = diameter(points);
+  const double contractionHere = std::max(contraction(size), contraction(4));
   irregular_.clear();
-  bool deep = false;
   for (Index i = 0; i < size; ++i) {
     const Corner at{firstSlot, i, size};
-    if (emitAtLevelOne(at, faceDiameter, sink)) continue;
-    const bool last = childrenAreFine(at, faceDiameter);
-    irregular_.push_back({at, last});
-    deep |= !last;
+    if (isRegular(at)) {
+      emitSmall(patchAt(at), 1, finished_, sink);
+      continue;
+    }
+    const double largest = diameterAround(at, faceDiameter);
+    if (largest <= kVertexConversionSpan) {
+      finished_.push_back(images_.image(at.slot()));
+      continue;
+    }
+    const double contractionAround =
+        std::max(contractionHere, contraction(images_.star(at.slot()).size));
+    irregular_.push_back({at, isInside(at) && childrenFineEnough(largest, contractionAround)});
   }
   if (irregular_.empty()) return;
 
   facePoints_.resize(size);
   faceImages_.of(points, facePoints_);
-  if (deep && size != 4) {
-    around_.reset(size);
-    around_.inner = facePoints_;
-  }
+  faceDiameter_ = diameter(facePoints_);
+  joined_ = false;
   for (const auto& [at, last] : irregular_)
     if (last)
       finishChildren(at);
     else
       split(at, sink);
-  if (deep && size != 4) extraordinary_.run(around_, 2, sink);
+  if (joined_) extraordinary_.run(around_, 2, sink);
 }
 
 /// The surroundings of a level-1 vertex in a quad whose V-face is a quad or missing.
@@ -73,30 +80,32 @@ Patch LocalSurface::patchAt(const Corner& at) const {
           static_cast<std::uint8_t>(quadrants | 8U)};
 }
 
-/// Emits a level-1 vertex that is regular, with all below it, or that is fine enough.
-bool LocalSurface::emitAtLevelOne(const Corner& at, double faceDiameter, SurfaceSink& sink) {
+bool LocalSurface::isRegular(const Corner& at) const {
+  if (at.size != 4) return false;
   const LocalImages::Star& star = images_.star(at.slot());
-  const bool hasK = star.closed || images_.extends();
-  if (at.size == 4 && (!hasK || star.size == 4)) {
-    emitRegular(patchAt(at), 1, sink);
-    return true;
-  }
-  const double size = std::max({faceDiameter, images_.edgeFace(at.slot()).diameter,
-                                images_.edgeFace(at.previous()).diameter, star.diameter});
-  if (size > kVertexConversionSpan) return false;
-  finished_.push_back(images_.image(at.slot()));
-  return true;
+  return star.size == 4 || !(star.closed || images_.extends());
 }
 
-/// Whether the step at an irregular vertex is the last one.
-bool LocalSurface::childrenAreFine(const Corner& at, double faceDiameter) const {
-  const LocalImages::Star& star = images_.star(at.slot());
-  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
-  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
-  if (!star.closed || !right.interior || !left.interior) return false;
-  const double size = std::max({faceDiameter, right.diameter, left.diameter, star.diameter});
-  return childrenFineEnough(
-      size, std::max({contraction(at.size), contraction(star.size), contraction(4)}));
+/// The largest of the faces around a level-1 vertex.
+double LocalSurface::diameterAround(const Corner& at, double faceDiameter) const {
+  return std::max({faceDiameter, images_.edgeFace(at.slot()).diameter,
+                   images_.edgeFace(at.previous()).diameter, images_.star(at.slot()).diameter});
+}
+
+/// Whether no face around a level-1 vertex is at the boundary.
+bool LocalSurface::isInside(const Corner& at) const {
+  return images_.star(at.slot()).closed && images_.edgeFace(at.slot()).interior &&
+         images_.edgeFace(at.previous()).interior;
+}
+
+/// Emits a regular vertex of `level`; those that are fine enough are collected.
+void LocalSurface::emitSmall(const Patch& patch, int level, std::vector<Vec3d>& finished,
+                             SurfaceSink& sink) {
+  const PatchDepth depth = patchDepth(patch);
+  if (depth.levels == 0)
+    finished.push_back(patch.points[1][1]);
+  else
+    emitRegular(patch, depth, level, sink);
 }
 
 /// The last step at a level-1 vertex inside the surface.
@@ -111,8 +120,8 @@ void LocalSurface::finishChildren(const Corner& at) {
   finishedChildren_.push_back(starImages_[star.begin + images_.placeInStar(at.slot())]);
 }
 
-/// One step at a level-1 vertex: emits its regular children and hands the others to the face and
-/// the star that they lie in.
+/// One step at a level-1 vertex: emits its children that are regular or fine enough and hands the
+/// others to the face and the star that they lie in.
 void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
   const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
   const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
@@ -128,14 +137,21 @@ void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
   split.hasL = left.exists;
   splitInStar(at, split);
 
-  split.emitSides(2, sink);
+  const bool inside = isInside(at);
+  const LocalImages::Star& star = images_.star(at.slot());
+  const auto fits = [](double size) { return size <= kVertexConversionSpan; };
+  if (split.hasR) emitSmall(split.childInR(), 2, finishedChildren_, sink);
+  if (split.hasL) emitSmall(split.childInL(), 2, finishedChildren_, sink);
   if (at.size == 4)
-    split.emitInF(2, sink);
+    emitSmall(split.childInF(), 2, finishedChildren_, sink);
+  else if (inside && fits(faceDiameter_) && fits(split.besideF()))
+    finishedChildren_.push_back(split.f0);
   else
     joinFace(at, split);
-  const LocalImages::Star& star = images_.star(at.slot());
   if (split.hasK && star.size == 4)
-    split.emitInK(2, sink);
+    emitSmall(split.childInK(), 2, finishedChildren_, sink);
+  else if (inside && fits(starDiameters_[images_.starNumber(at.slot())]) && fits(split.besideK()))
+    finishedChildren_.push_back(split.k0);
   else if (split.hasK && star.size > 1)
     joinStar(at, split);
   else if (split.hasK)
@@ -150,10 +166,12 @@ void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
 const LocalImages::Star& LocalSurface::subdividedStar(const Corner& at) {
   const LocalImages::Star& star = images_.star(at.slot());
   const Index number = images_.starNumber(at.slot());
-  if (!starKnown_[number])
-    faceImages_.of(std::span(images_.starPoints()).subspan(star.begin, star.size),
-                   std::span(starImages_).subspan(star.begin, star.size));
-  starKnown_[number] = true;
+  if (!starKnown_[number]) {
+    const auto images = std::span(starImages_).subspan(star.begin, star.size);
+    faceImages_.of(std::span(images_.starPoints()).subspan(star.begin, star.size), images);
+    starDiameters_[number] = diameter(images);
+    starKnown_[number] = true;
+  }
   return star;
 }
 
@@ -179,6 +197,11 @@ void LocalSurface::splitInStar(const Corner& at, VertexSplit& split) {
 
 /// The corner becomes an active vertex of its face, seen at level 2.
 void LocalSurface::joinFace(const Corner& at, const VertexSplit& split) {
+  if (!joined_) {
+    around_.reset(at.size);
+    around_.inner = facePoints_;
+    joined_ = true;
+  }
   const std::size_t i = at.place;
   const std::size_t j = at.previous() - at.first;
   around_.near[i] = split.r[0];

@@ -43,9 +43,12 @@ class LocalSurface {
   };
 
   void emitFace(Index firstSlot, Index size, SurfaceSink& sink);
-  bool emitAtLevelOne(const Corner& corner, double faceDiameter, SurfaceSink& sink);
+  bool isRegular(const Corner& corner) const;
+  double diameterAround(const Corner& corner, double faceDiameter) const;
+  bool isInside(const Corner& corner) const;
   Patch patchAt(const Corner& corner) const;
-  bool childrenAreFine(const Corner& corner, double faceDiameter) const;
+  static void emitSmall(const Patch& patch, int level, std::vector<Vec3d>& finished,
+                        SurfaceSink& sink);
   void finishChildren(const Corner& corner);
   const LocalImages::Star& subdividedStar(const Corner& corner);
   void split(const Corner& corner, SurfaceSink& sink);
@@ -60,13 +63,16 @@ class LocalSurface {
   std::vector<Vec3d> finished_;          // level-1 vertices that are fine enough
   std::vector<Vec3d> finishedChildren_;  // level-2 vertices that are
   std::vector<Vec3d> facePoints_;        // level 2 of one face
+  double faceDiameter_ = 0;              // of these
   struct Irregular {
     Corner at;
     bool last;  // its children are fine enough
   };
   std::vector<Irregular> irregular_;  // corners of one face
   ExtraordinaryFace around_;          // that face, if it is no quad
+  bool joined_ = false;               // it has active corners
   std::vector<Vec3d> starImages_;     // level 2 of the stars, where needed
+  std::vector<double> starDiameters_;  // of these, per star
   std::vector<std::uint8_t> starKnown_;
   std::vector<Vec3d> starNear_, starFar_, starCorner_;  // as ExtraordinaryFace, per point of a star
   std::vector<std::uint8_t> starActive_;

@@ -41,16 +41,17 @@ PatchDepth elongatedDepth(const PatchSteps& steps, int levels) {
 }  // namespace
 
 PatchSteps::PatchSteps(const Patch& patch) {
-  // Bit of a face between index a and a + 1 along u and b and b + 1 along v.
-  const auto faceBit = [](unsigned a, unsigned b) { return 1U << (2 * a + b); };
+  // Steps from index 0 to 1 and from 1 to 2 along an axis, at each index along the other one, and
+  // the quadrants beside them.
+  constexpr std::array<std::array<unsigned, 3>, 2> kBesideU = {{{1, 3, 2}, {4, 12, 8}}};
+  constexpr std::array<std::array<unsigned, 3>, 2> kBesideV = {{{1, 5, 4}, {2, 10, 8}}};
   const auto& p = patch.points;
   for (unsigned a = 0; a < 2; ++a)
-    for (unsigned b = 0; b < 2; ++b) {
-      if ((patch.quadrants & faceBit(a, b)) == 0) continue;
-      u = u.cwiseMax((p[a + 1][b] - p[a][b]).cwiseAbs());
-      u = u.cwiseMax((p[a + 1][b + 1] - p[a][b + 1]).cwiseAbs());
-      v = v.cwiseMax((p[a][b + 1] - p[a][b]).cwiseAbs());
-      v = v.cwiseMax((p[a + 1][b + 1] - p[a + 1][b]).cwiseAbs());
+    for (unsigned b = 0; b < 3; ++b) {
+      if ((patch.quadrants & kBesideU[a][b]) != 0)
+        u = u.cwiseMax((p[a + 1][b] - p[a][b]).cwiseAbs());
+      if ((patch.quadrants & kBesideV[a][b]) != 0)
+        v = v.cwiseMax((p[b][a + 1] - p[b][a]).cwiseAbs());
     }
 }
 
@@ -79,12 +80,12 @@ PatchDepth patchDepth(const Patch& patch) {
   const PatchSteps steps(patch);
   const int k = halvings((steps.u + steps.v).maxCoeff());
   constexpr int kLeastElongated = 4;  // fewer vertices are not worth it
+  if (k < kLeastElongated || patch.quadrants != kAllQuadrants) return {k, k, k};
   constexpr double kAspect = 6;
   const double u = steps.u.maxCoeff();
   const double v = steps.v.maxCoeff();
   const bool square = kAspect * std::min(u, v) > std::max(u, v);
-  if (k < kLeastElongated || square || patch.quadrants != kAllQuadrants) return {k, k, k};
-  return elongatedDepth(steps, k);
+  return square ? PatchDepth{k, k, k} : elongatedDepth(steps, k);
 }
 
 int curveDepth(double stripDiameter) {

@@ -28,6 +28,13 @@ inline double diameter(std::span<const Vec3d> points) {
   return (high - low).maxCoeff();
 }
 
+/// The same of a quad.
+inline double diameter(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+  const Vec3d low = a.cwiseMin(b).cwiseMin(c.cwiseMin(d));
+  const Vec3d high = a.cwiseMax(b).cwiseMax(c.cwiseMax(d));
+  return (high - low).maxCoeff();
+}
+
 /// The C(n) of DESIGN section 5 for a face of n sides: faces k levels down measure at most 2^-k
 /// times the largest diameter around a vertex, times the largest C around it.
 double contraction(std::size_t sides);

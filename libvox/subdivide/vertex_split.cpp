@@ -2,8 +2,6 @@
 
 #include "libvox/subdivide/vertex_split.h"
 
-#include "libvox/subdivide/stop.h"
-
 #include <algorithm>
 
 namespace vox {
@@ -51,7 +49,10 @@ void emitElongated(const Patch& patch, const PatchDepth& depth, int level, Surfa
 }  // namespace
 
 void emitRegular(const Patch& patch, int level, SurfaceSink& sink) {
-  const PatchDepth depth = patchDepth(patch);
+  emitRegular(patch, patchDepth(patch), level, sink);
+}
+
+void emitRegular(const Patch& patch, const PatchDepth& depth, int level, SurfaceSink& sink) {
   if (depth.levels == 0)
     sink.points({&patch.points[1][1], 1}, level);
   else if (depth.elongated())
@@ -81,6 +82,16 @@ Patch VertexSplit::childInF() const {
 Patch VertexSplit::childInK() const {
   return {{{{kOpposite, kLeft, l[3]}, {kRight, k0, l[0]}, {r[3], r[0], f0}}},
           quadrants(true, hasL, hasR, hasR && hasL)};
+}
+
+double VertexSplit::besideF() const {
+  return std::max({diameter(f0, r[0], k0, l[0]), diameter(f0, fNext, r[1], r[0]),
+                   diameter(f0, fPrevious, l[1], l[0])});
+}
+
+double VertexSplit::besideK() const {
+  return std::max({diameter(f0, r[0], k0, l[0]), diameter(k0, kRight, r[3], r[0]),
+                   diameter(k0, kLeft, l[3], l[0])});
 }
 
 void VertexSplit::emitSides(int level, SurfaceSink& sink) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/mesh/patch.h"
+#include "libvox/subdivide/stop.h"
 
 namespace vox {
 
@@ -48,6 +49,11 @@ struct VertexSplit {
   Patch childInF() const;
   Patch childInK() const;
 
+  /// Diameter of the largest quad around the child in F, and around the one in K: where F or K is no
+  /// quad, all faces there but its own child.
+  double besideF() const;
+  double besideK() const;
+
   /// Gives the sink the children in R and L, whose faces are quads, at `level`.
   void emitSides(int level, SurfaceSink& sink) const;
   /// The child in F, when F is a quad.
@@ -64,5 +70,7 @@ struct VertexSplit {
 /// other, so the outermost vertices of the whole N x N array go out besides: they are fine enough
 /// in both directions, for the neighbour as for the array within (mixed depths, DESIGN section 6).
 void emitRegular(const Patch& patch, int level, SurfaceSink& sink);
+/// The same, of the depth that patchDepth says.
+void emitRegular(const Patch& patch, const PatchDepth& depth, int level, SurfaceSink& sink);
 
 }  // namespace vox
