@@ -5,6 +5,8 @@
 #define HWY_TARGET_INCLUDE "libvox/grid/leaf_cache.cpp"
 #include "libvox/grid/leaf_cache.h"
 
+#include "libvox/grid/voxel.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -26,6 +28,18 @@ struct PackedLeaves {
 };
 
 }  // namespace
+
+constexpr std::size_t kMostLanes = 8;
+constexpr std::size_t kPlacesAtOnce = 64;
+
+/// Where single voxels go: their leaf, its slot, and their number in it.
+struct LeafCache::VoxelPlaces {
+  using Column = std::array<std::int32_t, kPlacesAtOnce>;
+  alignas(64) std::array<Column, 3> leaf;
+  alignas(64) Column slot;
+  alignas(64) Column offset;
+};
+
 }  // namespace vox
 #endif
 
@@ -77,6 +91,37 @@ std::size_t packLeaves(std::uint8_t* marks, const std::uint8_t* slots, std::size
   return touched;
 }
 
+/// Where voxelOf puts positions, a multiple of kMostLanes.
+void place(const double* HWY_RESTRICT positions, std::size_t count,
+           LeafCache::VoxelPlaces& places) {
+  const hn::CappedTag<double, kMostLanes> d;
+  const hn::Rebind<std::int32_t, decltype(d)> d32;
+  const auto half = hn::Set(d, 0.5);
+  const auto in = hn::Set(d32, 7);
+  const auto round = [&](auto x) { return hn::DemoteTo(d32, hn::Floor(hn::Add(x, half))); };
+  const auto join = [&](auto x, auto y, auto z) {
+    return hn::Or(hn::ShiftLeft<6>(hn::And(x, in)),
+                  hn::Or(hn::ShiftLeft<3>(hn::And(y, in)), hn::And(z, in)));
+  };
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    auto xs = hn::Zero(d);
+    auto ys = xs;
+    auto zs = xs;
+    hn::LoadInterleaved3(d, positions + 3 * i, xs, ys, zs);
+    const auto x = round(xs);
+    const auto y = round(ys);
+    const auto z = round(zs);
+    const auto leafX = hn::ShiftRight<LeafCache::kLeafLog2>(x);
+    const auto leafY = hn::ShiftRight<LeafCache::kLeafLog2>(y);
+    const auto leafZ = hn::ShiftRight<LeafCache::kLeafLog2>(z);
+    hn::Store(leafX, d32, places.leaf[0].data() + i);
+    hn::Store(leafY, d32, places.leaf[1].data() + i);
+    hn::Store(leafZ, d32, places.leaf[2].data() + i);
+    hn::Store(join(leafX, leafY, leafZ), d32, places.slot.data() + i);
+    hn::Store(join(x, y, z), d32, places.offset.data() + i);
+  }
+}
+
 }  // namespace vox::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -85,6 +130,7 @@ namespace vox {
 namespace {
 
 HWY_EXPORT(packLeaves);
+HWY_EXPORT(place);
 
 constexpr std::align_val_t kAlignment{64};
 constexpr std::size_t kMostPending = 256;
@@ -126,6 +172,29 @@ void LeafCache::collect(const openvdb::Coord& low, const openvdb::Coord& high) {
   }
 }
 
+void LeafCache::add(std::span<const Vec3d> positions) {
+  VoxelPlaces places;
+  while (positions.size() >= kMostLanes) {
+    const std::size_t count = std::min(positions.size() / kMostLanes * kMostLanes, kPlacesAtOnce);
+    HWY_DYNAMIC_DISPATCH(place)(positions[0].data(), count, places);
+    addPlaces(places, count);
+    positions = positions.subspan(count);
+  }
+  for (const Vec3d& position : positions) add(voxelOf(position));
+}
+
+void LeafCache::addPlaces(const VoxelPlaces& places, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto slot = static_cast<std::size_t>(places.slot[i]);
+    const auto offset = static_cast<unsigned>(places.offset[i]);
+    const auto& [x, y, z] = places.leaf;
+    const LeafCoord& known = leaves_[slot];
+    if (known.x != x[i] || known.y != y[i] || known.z != z[i]) [[unlikely]]
+      replace(slot, {x[i], y[i], z[i]});
+    words_[slot][offset >> 6U] |= std::uint64_t{1} << (offset & 63U);
+  }
+}
+
 void LeafCache::addBlock(const openvdb::Coord& origin, std::uint64_t voxels) {
   const openvdb::Coord leaf = origin >> kLeafLog2;
   const auto in = [](std::int32_t v) { return static_cast<unsigned>(v) & 7U; };
@@ -150,7 +219,7 @@ void LeafCache::addBlock(const openvdb::Coord& origin, std::uint64_t voxels) {
   }
 }
 
-void LeafCache::replace(std::size_t slot, const LeafCoord& leaf) {
+[[gnu::noinline]] void LeafCache::replace(std::size_t slot, const LeafCoord& leaf) {
   if (leaves_[slot] != kNoLeaf) send(leaves_[slot], words_[slot]);
   words_[slot].fill(0);
   leaves_[slot] = leaf;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "libvox/core/types.h"
 #include "libvox/grid/surface_grid.h"
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace vox {
@@ -48,6 +50,10 @@ class LeafCache {
     words[in(voxel.x())] |= std::uint64_t{1} << (in(voxel.y()) << 3U | in(voxel.z()));
   }
 
+  /// Switches on the voxels that hold some positions (voxelOf).
+  /// @throws LimitError  as collect
+  void add(std::span<const Vec3d> positions);
+
   /// Switches on voxels of the 4 x 4 x 4 block that begins at `origin`, which may lie across
   /// leaves: bit 16 i + 4 j + k stands for voxel origin + (i, j, k).
   /// @throws LimitError  as collect
@@ -55,6 +61,8 @@ class LeafCache {
 
   /// Sends everything to the grid.
   void flush();
+
+  struct VoxelPlaces;
 
  private:
   struct FreeMarks {
@@ -79,6 +87,7 @@ class LeafCache {
       replace(slot, leaf);
     return words_[slot];
   }
+  void addPlaces(const VoxelPlaces& places, std::size_t count);
   void replace(std::size_t slot, const LeafCoord& leaf);
   void send(const LeafCoord& leaf, const LeafWords& words);
   void drain();

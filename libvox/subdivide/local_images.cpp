@@ -45,15 +45,19 @@ void LocalImages::set(std::span<const Index> faces) {
     for (Index c = base_.mesh.faceOffsets[f]; c < base_.mesh.faceOffsets[f + 1]; ++c)
       if (starAt_[base_.mesh.faceVertices[c]] == kNone) addStar(c);
   Index slot = 0;
-  for (const Index f : faces)
-    for (Index c = base_.mesh.faceOffsets[f]; c < base_.mesh.faceOffsets[f + 1]; ++c)
-      addEdge(slot++, c);
+  for (const Index f : faces) {
+    const Index first = slot;
+    const Index begin = base_.mesh.faceOffsets[f];
+    const Index size = base_.mesh.faceSize(f);
+    for (Index i = 0; i < size; ++i, ++slot)
+      addEdge(slot, i + 1 == size ? first : slot + 1, begin + i);
+  }
 }
 
 void LocalImages::addFace(Index f) {
   const auto face = base_.mesh.face(f);
-  corners_.clear();
-  for (const Index v : face) corners_.push_back(base_.mesh.points[v]);
+  corners_.resize(face.size());
+  for (std::size_t i = 0; i < face.size(); ++i) corners_[i] = base_.mesh.points[face[i]];
   firstSlot_[f] = static_cast<Index>(images_.size());
   known_.push_back(f);
   images_.resize(images_.size() + face.size());
@@ -142,31 +146,37 @@ void LocalImages::closeFan(Star& star) {
     starPoints_.push_back(mirror(starPoints_[star.begin + i], middle(i)));
 }
 
-void LocalImages::addEdge(Index slot, Index corner) {
-  const PolygonMesh& mesh = base_.mesh;
-  const Index next = nextCorner(mesh, base_.adjacency, corner);
+/// All faces around own vertices are known.
+void LocalImages::addEdge(Index slot, Index next, Index corner) {
   const Index t = base_.adjacency.twin[corner];
-  const Vec3d a = images_[slot];
-  const Vec3d b = imageAt(next);
   EdgeFace& edge = edges_[slot];
   edge = {};
-  edge.interior = t != kNone;
-  edge.exists = edge.interior || extends();
-  if (!edge.exists) return;
-  Vec3d nearReal;
-  Vec3d farReal;
-  if (t != kNone) {
-    edge.near = nearReal = imageAt(nextCorner(mesh, base_.adjacency, t));
-    edge.far = farReal = imageAt(t);
-  } else {
-    const Vec3d& v = mesh.points[mesh.faceVertices[corner]];
-    const Vec3d& w = mesh.points[mesh.faceVertices[next]];
-    nearReal = chaikin(v, w);
-    farReal = chaikin(w, v);
-    edge.near = mirror(a, nearReal);
-    edge.far = mirror(b, farReal);
+  if (t == kNone) {
+    edge.exists = extends();
+    if (edge.exists) mirrorEdge(slot, next, corner);
+    return;
   }
-  edge.diameter = diameter(a, b, nearReal, farReal);
+  edge.interior = true;
+  const Index f = base_.adjacency.cornerFace[t];
+  const Index shift = firstSlot_[f] - base_.mesh.faceOffsets[f];  // modulo 2^32
+  const Index across = t + shift;
+  edge.near = images_[nextCorner(base_.mesh, base_.adjacency, t) + shift];
+  edge.far = images_[across];
+  edge.diameter = across < slot ? edges_[across].diameter
+                                : diameter(images_[slot], images_[next], edge.near, edge.far);
+}
+
+/// The face beyond an edge at an extended boundary.
+void LocalImages::mirrorEdge(Index slot, Index next, Index corner) {
+  const PolygonMesh& mesh = base_.mesh;
+  const Vec3d& v = mesh.points[mesh.faceVertices[corner]];
+  const Vec3d& w = mesh.points[mesh.faceVertices[nextCorner(mesh, base_.adjacency, corner)]];
+  const Vec3d near = chaikin(v, w);
+  const Vec3d far = chaikin(w, v);
+  EdgeFace& edge = edges_[slot];
+  edge.near = mirror(images_[slot], near);
+  edge.far = mirror(images_[next], far);
+  edge.diameter = diameter(images_[slot], images_[next], near, far);
 }
 
 }  // namespace vox

@@ -72,7 +72,8 @@ class LocalImages {
   void addStar(Index corner);
   bool findFan(Index corner);
   void closeFan(Star& star);
-  void addEdge(Index slot, Index corner);
+  void addEdge(Index slot, Index next, Index corner);
+  void mirrorEdge(Index slot, Index next, Index corner);
 
   const SubdivisionLevel& base_;
   std::span<const Index> faces_;

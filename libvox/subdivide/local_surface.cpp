@@ -2,6 +2,7 @@
 
 #include "libvox/subdivide/local_surface.h"
 
+#include "libvox/subdivide/sizes.h"
 #include "libvox/subdivide/stop.h"
 
 #include <algorithm>
@@ -136,21 +137,27 @@ void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
   split.hasR = right.exists;
   split.hasL = left.exists;
   splitInStar(at, split);
+  const ChildSizes sizes = isInside(at) ? childSizes(split) : kUnknownSizes;
 
-  const bool inside = isInside(at);
   const LocalImages::Star& star = images_.star(at.slot());
   const auto fits = [](double size) { return size <= kVertexConversionSpan; };
-  if (split.hasR) emitSmall(split.childInR(), 2, finishedChildren_, sink);
-  if (split.hasL) emitSmall(split.childInL(), 2, finishedChildren_, sink);
+  if (fits(sizes.r))
+    finishedChildren_.push_back(split.r[0]);
+  else if (split.hasR)
+    emitRegular(split.childInR(), 2, sink);
+  if (fits(sizes.l))
+    finishedChildren_.push_back(split.l[0]);
+  else if (split.hasL)
+    emitRegular(split.childInL(), 2, sink);
   if (at.size == 4)
     emitSmall(split.childInF(), 2, finishedChildren_, sink);
-  else if (inside && fits(faceDiameter_) && fits(split.besideF()))
+  else if (fits(std::max(faceDiameter_, sizes.f)))
     finishedChildren_.push_back(split.f0);
   else
     joinFace(at, split);
   if (split.hasK && star.size == 4)
     emitSmall(split.childInK(), 2, finishedChildren_, sink);
-  else if (inside && fits(starDiameters_[images_.starNumber(at.slot())]) && fits(split.besideK()))
+  else if (fits(std::max(starDiameters_[images_.starNumber(at.slot())], sizes.k)))
     finishedChildren_.push_back(split.k0);
   else if (split.hasK && star.size > 1)
     joinStar(at, split);

@@ -68,10 +68,10 @@ class LocalSurface {
     Corner at;
     bool last;  // its children are fine enough
   };
-  std::vector<Irregular> irregular_;  // corners of one face
-  ExtraordinaryFace around_;          // that face, if it is no quad
-  bool joined_ = false;               // it has active corners
-  std::vector<Vec3d> starImages_;     // level 2 of the stars, where needed
+  std::vector<Irregular> irregular_;   // corners of one face
+  ExtraordinaryFace around_;           // that face, if it is no quad
+  bool joined_ = false;                // it has active corners
+  std::vector<Vec3d> starImages_;      // level 2 of the stars, where needed
   std::vector<double> starDiameters_;  // of these, per star
   std::vector<std::uint8_t> starKnown_;
   std::vector<Vec3d> starNear_, starFar_, starCorner_;  // as ExtraordinaryFace, per point of a star

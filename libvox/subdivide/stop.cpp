@@ -40,21 +40,6 @@ PatchDepth elongatedDepth(const PatchSteps& steps, int levels) {
 
 }  // namespace
 
-PatchSteps::PatchSteps(const Patch& patch) {
-  // Steps from index 0 to 1 and from 1 to 2 along an axis, at each index along the other one, and
-  // the quadrants beside them.
-  constexpr std::array<std::array<unsigned, 3>, 2> kBesideU = {{{1, 3, 2}, {4, 12, 8}}};
-  constexpr std::array<std::array<unsigned, 3>, 2> kBesideV = {{{1, 5, 4}, {2, 10, 8}}};
-  const auto& p = patch.points;
-  for (unsigned a = 0; a < 2; ++a)
-    for (unsigned b = 0; b < 3; ++b) {
-      if ((patch.quadrants & kBesideU[a][b]) != 0)
-        u = u.cwiseMax((p[a + 1][b] - p[a][b]).cwiseAbs());
-      if ((patch.quadrants & kBesideV[a][b]) != 0)
-        v = v.cwiseMax((p[b][a + 1] - p[b][a]).cwiseAbs());
-    }
-}
-
 double contraction(std::size_t sides) {
   switch (sides) {
     case 3:

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "libvox/mesh/patch.h"
+#include "libvox/subdivide/sizes.h"
 
-#include <cmath>
 #include <span>
 
 namespace vox {
@@ -52,17 +52,6 @@ struct PatchDepth {
   int alongU = 0;
   int alongV = 0;
   bool elongated() const { return alongU != levels || alongV != levels; }
-};
-
-/// Largest steps along u and v over the faces of a patch that exist.
-struct PatchSteps {
-  Vec3d u = Vec3d::Zero();
-  Vec3d v = Vec3d::Zero();
-  explicit PatchSteps(const Patch& patch);
-  /// Bound of the L-inf diameter of the faces some levels below.
-  double sizeBelow(int alongU, int alongV) const {
-    return (u * std::ldexp(1.0, -alongU) + v * std::ldexp(1.0, -alongV)).maxCoeff();
-  }
 };
 
 /// Differences between neighbours are halved by every level and averaged, so that all faces k

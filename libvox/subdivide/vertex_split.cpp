@@ -84,16 +84,6 @@ Patch VertexSplit::childInK() const {
           quadrants(true, hasL, hasR, hasR && hasL)};
 }
 
-double VertexSplit::besideF() const {
-  return std::max({diameter(f0, r[0], k0, l[0]), diameter(f0, fNext, r[1], r[0]),
-                   diameter(f0, fPrevious, l[1], l[0])});
-}
-
-double VertexSplit::besideK() const {
-  return std::max({diameter(f0, r[0], k0, l[0]), diameter(k0, kRight, r[3], r[0]),
-                   diameter(k0, kLeft, l[3], l[0])});
-}
-
 void VertexSplit::emitSides(int level, SurfaceSink& sink) const {
   if (hasR) emitRegular(childInR(), level, sink);
   if (hasL) emitRegular(childInL(), level, sink);

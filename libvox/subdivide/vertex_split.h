@@ -49,11 +49,6 @@ struct VertexSplit {
   Patch childInF() const;
   Patch childInK() const;
 
-  /// Diameter of the largest quad around the child in F, and around the one in K: where F or K is no
-  /// quad, all faces there but its own child.
-  double besideF() const;
-  double besideK() const;
-
   /// Gives the sink the children in R and L, whose faces are quads, at `level`.
   void emitSides(int level, SurfaceSink& sink) const;
   /// The child in F, when F is a quad.

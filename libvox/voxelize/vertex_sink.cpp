@@ -36,6 +36,17 @@ struct VoxelBox {
   }
 };
 
+constexpr std::size_t kMostSmallVertices = std::size_t{1} << (2 * (kLeastTileLevels - 1));
+
+/// Weights along an axis of a patch too small for a tile, k levels down.
+std::span<const PatchWeights> smallWeights(int k) {
+  static_assert(kLeastTileLevels == 3);
+  static const std::array<PatchWeights, 7> kWeights = {
+      {{0, 1}, {0, 2}, {1, 2}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
+  const std::size_t n = std::size_t{1} << k;
+  return std::span(kWeights).subspan(n - 1, n);
+}
+
 bool fitsLeafCache(const VoxelBox& box) {
   const Coord leaves = (box.high >> LeafCache::kLeafLog2) - (box.low >> LeafCache::kLeafLog2);
   return leaves.x() < LeafCache::kBrickSide && leaves.y() < LeafCache::kBrickSide &&
@@ -64,7 +75,7 @@ void VertexSink::mark(const Vec3d& position) {
 
 void VertexSink::points(std::span<const Vec3d> points, int level) {
   vertices_[static_cast<std::size_t>(level)] += points.size();
-  for (const Vec3d& point : points) mark(point);
+  cache_.add(points);
 }
 
 void VertexSink::curve(const CurvePoints& points, int k, int level) {
@@ -131,14 +142,14 @@ void VertexSink::markWhole(const Patch& patch, int k) {
 }
 
 void VertexSink::markSmall(const Patch& patch, int k) {
-  const std::int64_t n = std::int64_t{1} << k;
-  const auto& p = patch.points;
-  for (std::int64_t i = 0; i < n; ++i) {
-    const PatchWeights u(i, n);
-    const std::array<Vec3d, 3> row = {u(p[0][0], p[1][0], p[2][0]), u(p[0][1], p[1][1], p[2][1]),
-                                      u(p[0][2], p[1][2], p[2][2])};
-    for (std::int64_t j = 0; j < n; ++j) mark(PatchWeights(j, n)(row[0], row[1], row[2]));
+  const auto weights = smallWeights(k);
+  std::array<Vec3d, kMostSmallVertices> vertices;
+  std::size_t count = 0;
+  for (const PatchWeights& u : weights) {
+    const CurvePoints row = rowOf(patch, u);
+    for (const PatchWeights& v : weights) vertices[count++] = v(row[0], row[1], row[2]);
   }
+  cache_.add(std::span(vertices).first(count));
 }
 
 }  // namespace vox
