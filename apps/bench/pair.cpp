@@ -22,6 +22,8 @@
 namespace vox::bench {
 namespace {
 
+const std::vector<int> kDims = {256, 512, 1024};
+
 struct Options {
   std::string commandA;
   std::string commandB;
@@ -31,7 +33,7 @@ struct Options {
   std::string scaling;
   std::vector<std::string> contest;
   std::string plots;
-  std::vector<int> dims = {256, 512, 1024};
+  std::vector<int> dims;  ///< empty: kDims
   int threads = std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
   int runs = 5;
   Limits limits{.timeoutSeconds = 600};
@@ -113,10 +115,11 @@ void declareScaling(CLI::App& app, Options& options) {
           ->add_option("--scaling", options.scaling,
                        "Growth of time and memory with the output: a mesh file or a generated mesh")
           ->type_name("INPUT");
-  group->add_option("--dims", options.dims, "Resolutions, with commas; of a contest, too")
+  group
+      ->add_option("--dims", options.dims,
+                   "Resolutions, with commas; of a contest, too (default: 256,512,1024)")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      ->check(CLI::PositiveNumber);
   group->add_option("--threads", options.threads, "Threads to compare with one")
       ->needs(scaling)
       ->capture_default_str()
@@ -158,6 +161,8 @@ void requireOneTask(const Options& options) {
     throw CLI::ValidationError("give two commands, or --suite, --compare or --scaling");
   if (commands && options.commandB.empty())
     throw CLI::ValidationError("give a second command to compare with");
+  if (!options.dims.empty() && options.scaling.empty() && options.contest.empty())
+    throw CLI::ValidationError("--dims goes with --compare and --scaling");
 }
 
 void write(const std::string& file, const std::string& text) {
@@ -252,6 +257,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     requireOneTask(options);
+    if (options.dims.empty()) options.dims = kDims;
     const nlohmann::ordered_json json = Run(options).measureAll();
     if (options.json.empty()) return 0;
     write(options.json, json.dump(2) + "\n");
