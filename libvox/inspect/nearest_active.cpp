@@ -21,7 +21,7 @@ using openvdb::CoordBBox;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr std::size_t kFanout = 4;
 
-double squared(double x) {
+constexpr double squared(double x) {
   return x * x;
 }
 
@@ -73,10 +73,75 @@ void raise(std::atomic<double>& most, double value) {
   }
 }
 
-void raiseBy(const LeafSurplus& leaf, const NearestActive& others, std::atomic<double>& most) {
+/// The voxels of a leaf and of the 26 around it, as rows of bits along z.
+class Surroundings {
+ public:
+  Surroundings(const Coord& origin, const NearestActive& others) {
+    for (int leaf = 0; leaf < 27; ++leaf) {
+      const Coord at(leaf / 9, leaf / 3 % 3, leaf % 3);
+      const auto* const voxels = others.leafAt(origin + ((at - Coord(1)) << 3));
+      if (voxels == nullptr) continue;
+      for (std::size_t row = 0; row < 64; ++row)
+        rows_[rowAt(at.x(), row >> 3U)][rowAt(at.y(), row & 7U)] |=
+            (voxels->getWord<openvdb::Index64>(static_cast<openvdb::Index>(row >> 3U)) >>
+                 (8 * (row & 7U)) &
+             0xFFU)
+            << (8 * at.z());
+    }
+  }
+
+  /// Takes those voxels of the leaf in the middle away that have one of these within a distance of
+  /// up to kMostReach.
+  void takeNear(double squaredReach, openvdb::util::NodeMask<3>& voxels) const {
+    const int reach = static_cast<int>(std::sqrt(squaredReach));
+    std::vector<Rows> wide = {rows_};  // [n]: and their neighbours up to n along z
+    for (int n = 1; n <= reach; ++n) {
+      wide.push_back(wide.back());
+      for (auto& slab : wide.back())
+        for (std::uint64_t& row : slab) row |= row << 1U | row >> 1U;
+    }
+    for (int dx = -reach; dx <= reach; ++dx)
+      for (int dy = -reach; dy <= reach; ++dy) {
+        const double left = squaredReach - dx * dx - dy * dy;
+        if (left < 0) continue;
+        const Rows& rows = wide[static_cast<std::size_t>(std::sqrt(left))];
+        for (int x = 0; x < kLeaf; ++x) {
+          const auto& slab = rows[static_cast<std::size_t>(kLeaf + x + dx)];
+          auto& word = voxels.getWord<openvdb::Index64>(static_cast<openvdb::Index>(x));
+          for (int y = 0; y < kLeaf; ++y)
+            word &= ~((slab[static_cast<std::size_t>(kLeaf + y + dy)] >> 8U & 0xFFU) << (8 * y));
+        }
+      }
+  }
+
+  static constexpr double kMostReach = 8;
+
+ private:
+  static constexpr std::size_t kSide = 24;
+  static std::size_t rowAt(int leaf, std::size_t row) {
+    return 8 * static_cast<std::size_t>(leaf) + row;
+  }
+
+  static constexpr int kLeaf = 8;
+  using Rows = std::array<std::array<std::uint64_t, kSide>, kSide>;
+  Rows rows_{};
+};
+
+/// Takes away what is not as far as the farthest so far: cheaply, a leaf at a time.
+LeafSurplus withoutNear(LeafSurplus leaf, const NearestActive& others, double mostSquared) {
+  constexpr double kMost = squared(Surroundings::kMostReach);
+  if (mostSquared >= 1)
+    Surroundings(leaf.origin, others).takeNear(std::min(mostSquared, kMost), leaf.voxels);
+  return leaf;
+}
+
+void raiseBy(const LeafSurplus& whole, const NearestActive& others, std::atomic<double>& most) {
   // Distance changes by at most one per voxel: no voxel is farther than the middle and this.
   constexpr double kReach = 6.93;  // 4 sqrt(3)
-  const double before = std::sqrt(most.load(std::memory_order_relaxed));
+  const double beforeSquared = most.load(std::memory_order_relaxed);
+  const double before = std::sqrt(beforeSquared);
+  const LeafSurplus leaf = withoutNear(whole, others, beforeSquared);
+  if (leaf.voxels.isOff()) return;
   if (before > kReach) {
     const double enough = squared(before - kReach);
     if (others.squaredDistance(leaf.origin.offsetBy(4), enough) <= enough) return;
@@ -147,6 +212,13 @@ NearestActive::NearestActive(std::vector<ActiveBlock> blocks) : blocks_(std::mov
   levels_.push_back(byFours(blocks_, [](const ActiveBlock& block) { return block.box; }));
   while (levels_.back().size() > 1)
     levels_.push_back(byFours(levels_.back(), [](const CoordBBox& box) { return box; }));
+}
+
+const openvdb::util::NodeMask<3>* NearestActive::leafAt(const Coord& origin) const {
+  const auto found = std::lower_bound(
+      blocks_.begin(), blocks_.end(), origin,
+      [](const ActiveBlock& block, const Coord& at) { return lessMorton(block.box.min(), at); });
+  return found != blocks_.end() && found->box.min() == origin ? found->leafVoxels : nullptr;
 }
 
 /// Looks into a box of a level, the nearest of what is in it first.

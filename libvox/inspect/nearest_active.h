@@ -22,6 +22,9 @@ class NearestActive {
 
   bool empty() const { return blocks_.empty(); }
 
+  /// The active voxels of the leaf at an origin; null if there is no leaf. Thread-safe.
+  const openvdb::util::NodeMask<3>* leafAt(const openvdb::Coord& origin) const;
+
   /// Squared Euclidean distance to the nearest active voxel, in voxels; infinite if there is none.
   /// Any distance will do that is at most `enough` squared: looks no further then. Thread-safe.
   double squaredDistance(const openvdb::Coord& from, double enoughSquared = 0) const;
