@@ -10,10 +10,11 @@
 namespace vox::bench {
 namespace {
 
-constexpr const char* kVertices = "vox, vertices";
-constexpr const char* kPolygons = "vox, polygons, 6-separating";
-constexpr const char* kPolygons26 = "vox, polygons, 26-separating";
-constexpr const char* kLevelSet = "vox, level set";
+/// A program of the contest, and the name of what makes the same of a mesh with vox.
+struct Entry {
+  Program program;
+  std::string against = {};
+};
 
 struct MeshFacts {
   double longestSide = 0;
@@ -45,36 +46,38 @@ class Inputs {
   Inputs(const Tools& tools, const std::filesystem::path& mesh, const std::filesystem::path& folder)
       : tools_(tools), mesh_(mesh), folder_(folder), facts_(factsOf(tools, mesh)) {}
 
-  std::vector<Program> programs(int dim) const {
-    const auto vox = [&](const char* name, const std::vector<std::string>& more) {
-      Program program = voxConvert(tools_, mesh_, dim, output(name), more);
-      program.name = name;
-      return program;
-    };
-    const std::vector<std::string> polygons = {"--voxelize", "polygon", "--until", "flatness=0.1"};
-    auto polygons26 = polygons;
-    polygons26.insert(polygons26.end(), {"--separating", "26"});
+  std::vector<Entry> entries(int dim) const {
+    const std::string vertices = "vox, vertices";
+    const std::string polygons26 = "vox, polygons, 26-separating";
+    const std::string levelSet = "vox, level set";
+    const std::string vdbTool = "vdb_tool -mesh2ls of a refined mesh";
+    const std::string blender = "Blender, Mesh to Volume";
     const std::string levels = std::to_string(levelsFor(facts_, dim));
     std::ostringstream digits;
     digits << std::setprecision(17) << facts_.longestSide / dim;
     const std::string voxelSize = digits.str();
     return {
-        vox(kVertices, {"--voxelize", "vertex"}),
-        vox(kPolygons, polygons),
-        vox(kPolygons26, polygons26),
-        levelSet(dim),
-        cgal("CGAL Doo-Sabin, rounding", dim, "mask"),
-        cgal("CGAL Doo-Sabin, meshToVolume unsigned", dim, "unsigned"),
-        cgal("CGAL Doo-Sabin, meshToVolume level set", dim, "level-set"),
-        {"vdb_tool -mesh2ls of a refined mesh",
-         {"vdb_tool", "-read", refined(dim).string(), "-mesh2ls", "voxel=" + voxelSize, "-write",
-          output("vdb_tool -mesh2ls of a refined mesh")}},
-        {"Blender, Mesh to Volume",
-         {"blender", "--background", "--factory-startup", "--python",
-          (tools_.peers / "blender_volume.py").string(), "--", mesh_.string(),
-          output("Blender, Mesh to Volume"), levels, voxelSize}},
-        {"OpenSubdiv, refinement only",
-         {(tools_.peers / "vox_peer_opensubdiv").string(), mesh_.string(), "--levels", levels}},
+        vox(vertices, dim, {"--voxelize", "vertex"}),
+        vox("vox, polygons, 6-separating", dim,
+            {"--voxelize", "polygon", "--until", "flatness=0.1"}),
+        vox(polygons26, dim,
+            {"--voxelize", "polygon", "--until", "flatness=0.1", "--separating", "26"}),
+        vox(levelSet, dim, {}, "surface"),
+        {cgal("CGAL Doo-Sabin, rounding", dim, "mask"), vertices},
+        {cgal("CGAL Doo-Sabin, meshToVolume unsigned", dim, "unsigned"), polygons26},
+        {cgal("CGAL Doo-Sabin, meshToVolume level set", dim, "level-set"), levelSet},
+        {{vdbTool,
+          {"vdb_tool", "-read", refined(dim).string(), "-mesh2ls", "voxel=" + voxelSize, "-write",
+           output(vdbTool)}},
+         levelSet},
+        {{blender,
+          {"blender", "--background", "--factory-startup", "--python",
+           (tools_.peers / "blender_volume.py").string(), "--", mesh_.string(), output(blender),
+           levels, voxelSize}},
+         levelSet},
+        {{"OpenSubdiv, refinement only",
+          {(tools_.peers / "vox_peer_opensubdiv").string(), mesh_.string(), "--levels", levels}},
+         vertices},
     };
   }
 
@@ -97,10 +100,13 @@ class Inputs {
   std::filesystem::path refined(int dim) const {
     return folder_ / ("refined" + std::to_string(dim) + ".obj");
   }
-  Program levelSet(int dim) const {
-    return {kLevelSet,
-            {tools_.vox.string(), "convert", mesh_.string(), "-o", output(kLevelSet), "--dim",
-             std::to_string(dim), "--grids", "surface", "--force"}};
+  Entry vox(const std::string& name, int dim, const std::vector<std::string>& more,
+            const char* grids = "mask") const {
+    Entry entry{{name,
+                 {tools_.vox.string(), "convert", mesh_.string(), "-o", output(name), "--dim",
+                  std::to_string(dim), "--grids", grids, "--force"}}};
+    entry.program.command.insert(entry.program.command.end(), more.begin(), more.end());
+    return entry;
   }
   Program cgal(const char* name, int dim, const char* kind) const {
     return {name,
@@ -113,19 +119,6 @@ class Inputs {
   std::filesystem::path folder_;
   MeshFacts facts_;
 };
-
-std::vector<Contender> newContenders() {
-  return {{kVertices, ""},
-          {kPolygons, ""},
-          {kPolygons26, ""},
-          {kLevelSet, ""},
-          {"CGAL Doo-Sabin, rounding", kVertices},
-          {"CGAL Doo-Sabin, meshToVolume unsigned", kPolygons26},
-          {"CGAL Doo-Sabin, meshToVolume level set", kLevelSet},
-          {"vdb_tool -mesh2ls of a refined mesh", kLevelSet},
-          {"Blender, Mesh to Volume", kLevelSet},
-          {"OpenSubdiv, refinement only", kVertices}};
-}
 
 /// Looks at the file of a program, and takes it away.
 Output takeOutput(const Tools& tools, const std::filesystem::path& file) {
@@ -153,13 +146,15 @@ Contest holdContest(const Tools& tools, const std::string& input, const std::vec
                     int runs, const Limits& limits, const std::filesystem::path& folder,
                     const Progress& progress) {
   const Inputs inputs(tools, meshNamed(tools, input, folder), folder);
-  Contest contest{input, dims, newContenders()};
+  Contest contest{input, dims, {}};
   std::sort(contest.dims.begin(), contest.dims.end());
+  for (const Entry& entry : inputs.entries(contest.dims.front()))
+    contest.contenders.push_back({entry.program.name, entry.against});
   for (const int dim : contest.dims) {
     std::vector<Program> running;
-    for (const Program& program : inputs.programs(dim))
-      for (const Contender& contender : contest.contenders)
-        if (contender.name == program.name && goesOn(contender)) running.push_back(program);
+    const std::vector<Entry> entries = inputs.entries(dim);
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (goesOn(contest.contenders[i])) running.push_back(entries[i].program);
     inputs.prepare(dim);
     std::vector<Side> sides =
         measureInTurn(input + " at " + std::to_string(dim), running, runs, limits, progress);
