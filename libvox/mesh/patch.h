@@ -2,6 +2,8 @@
 
 #include "libvox/core/types.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -50,6 +52,63 @@ inline CurvePoints rowOf(const Patch& patch, const PatchWeights& u) {
   const auto& p = patch.points;
   return {u(p[0][0], p[1][0], p[2][0]), u(p[0][1], p[1][1], p[2][1]), u(p[0][2], p[1][2], p[2][2])};
 }
+
+/// A place t in 0 .. 1 along one axis of the smooth surface of a patch, the biquadratic B-spline
+/// that its vertices come to lie on.
+struct SplinePlace {
+  double t;
+  /// Of vertex i of n: where its limit point is.
+  static SplinePlace ofVertex(std::int64_t i, std::int64_t n) {
+    return {(static_cast<double>(i) + 0.5) / static_cast<double>(n)};
+  }
+  Vec3d value(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+    return (0.5 * (1 - t) * (1 - t)) * a + (0.5 + t * (1 - t)) * b + (0.5 * t * t) * c;
+  }
+  /// By differences: exactly 0 where points coincide.
+  Vec3d slope(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+    return (1 - t) * (b - a) + t * (c - b);
+  }
+};
+
+/// Unit normal of the plane of two tangents, on the side where they are counter-clockwise; 0 where
+/// they are none up to rounding.
+inline Vec3d normalOfTangents(const Vec3d& a, const Vec3d& b) {
+  constexpr double kNoSine = 1e-12;
+  const Vec3d normal = a.cross(b);
+  if (!(normal.squaredNorm() > kNoSine * kNoSine * (a.squaredNorm() * b.squaredNorm())))
+    return Vec3d::Zero();
+  return normal.stableNormalized();
+}
+
+/// Exact normals of the smooth surface of a patch, at one place along u.
+class LimitNormals {
+ public:
+  LimitNormals(const Patch& patch, SplinePlace u) {
+    for (std::size_t v = 0; v < 3; ++v) {
+      const Vec3d &a = patch.points[0][v], &b = patch.points[1][v], &c = patch.points[2][v];
+      values_[v] = u.value(a, b, c);
+      slopes_[v] = u.slope(a, b, c);
+    }
+  }
+  /// Unit, on the side where u and v are counter-clockwise: outside; 0 where there is none.
+  Vec3d at(SplinePlace v) const {
+    return normalOfTangents(v.value(slopes_[0], slopes_[1], slopes_[2]),
+                            v.slope(values_[0], values_[1], values_[2]));
+  }
+
+ private:
+  CurvePoints values_, slopes_;
+};
+
+/// The normal of the smooth surface where the limit point of vertex (i, j) of N x M descendants is.
+/// A patch without some of its faces must be `continued`.
+inline Vec3d limitNormal(const Patch& patch, std::int64_t i, std::int64_t n, std::int64_t j,
+                         std::int64_t m) {
+  return LimitNormals(patch, SplinePlace::ofVertex(i, n)).at(SplinePlace::ofVertex(j, m));
+}
+
+/// The patch with the points of missing faces put where the surface goes on straight.
+Patch continued(const Patch& partial);
 
 /// Receives the vertices of a subdivided surface, each at the level where its neighbourhood is
 /// fine enough. Coordinates are in index space (voxels).

@@ -21,6 +21,47 @@ Patch pointPatch(const Vec3d& point) {
   return patch;
 }
 
+/// A point with the tangent plane of the surface at its limit point, the centroid of its V-face:
+/// that of the bimedians of this quad, which the first harmonic of Doo-Sabin keeps.
+Patch tangentPatch(const Vec3d& point, const VertexSplit& split) {
+  // Of the child in F, the points around the V-face, as far as its faces exist.
+  const Patch child = continued(split.childInF());
+  const auto& p = child.points;
+  const Vec3d along = (p[1][1] - p[0][0]) / 2.0;
+  const Vec3d across = (p[0][1] - p[1][0]) / 2.0;
+  Patch patch;
+  for (std::size_t u = 0; u < 3; ++u)
+    for (std::size_t v = 0; v < 3; ++v)
+      patch.points[u][v] = point + (static_cast<double>(u) - 1) * (along - across) +
+                           (static_cast<double>(v) - 1) * (along + across);
+  patch.points[1][1] = point;
+  return patch;
+}
+
+/// Of the normals from column `first` on, those in a block.
+void normalsOfBlockAlongV(const VertexArray::Block& block, SplinePlace u, std::int64_t first,
+                          std::span<Vec3d> normals) {
+  const auto end = std::min(first + static_cast<std::int64_t>(normals.size()), block.endV());
+  const std::int64_t begin = std::max(first, block.v);
+  if (begin >= end) return;
+  const LimitNormals row(continued(block.patch), u);
+  for (std::int64_t j = begin; j < end; ++j)
+    normals[static_cast<std::size_t>(j - first)] =
+        row.at(SplinePlace::ofVertex(j - block.v, block.sizeV()));
+}
+
+/// The same from row `first` on.
+void normalsOfBlockAlongU(const VertexArray::Block& block, SplinePlace v, std::int64_t first,
+                          std::span<Vec3d> normals) {
+  const auto end = std::min(first + static_cast<std::int64_t>(normals.size()), block.endU());
+  const std::int64_t begin = std::max(first, block.u);
+  if (begin >= end) return;
+  const Patch patch = continued(block.patch);
+  for (std::int64_t i = begin; i < end; ++i)
+    normals[static_cast<std::size_t>(i - first)] =
+        LimitNormals(patch, SplinePlace::ofVertex(i - block.u, block.sizeU())).at(v);
+}
+
 }  // namespace
 
 LevelOneVertex::LevelOneVertex() {
@@ -31,12 +72,15 @@ LevelOneVertex::LevelOneVertex() {
   split.l.fill(unknown);
 }
 
-void VertexArray::set(const LevelOneVertex& vertex, VertexDepth depth) {
+void VertexArray::set(const LevelOneVertex& vertex, VertexDepth depth, bool normals) {
   if (vertex.regular) return set(vertex.patch, depth);
   depth_ = depth;
+  normals_ = normals;
   blocks_.clear();
   const int k = depth.u;
-  if (k == 0) return addPoint(vertex.at, 0, 0);
+  if (k == 0)
+    return addPoint(
+        vertex.at, [&] { return vertex.split; }, 0, 0);
   const std::int64_t half = std::int64_t{1} << (k - 1);
   add(vertex.split.childInR(), half, 0, k - 1);
   add(vertex.split.childInL(), 0, half, k - 1);
@@ -57,15 +101,19 @@ void VertexArray::add(const Patch& patch, std::int64_t u, std::int64_t v, int k)
   blocks_.push_back({patch, u, v, {log2, log2}});
 }
 
-void VertexArray::addPoint(const Vec3d& point, std::int64_t u, std::int64_t v) {
-  add(pointPatch(point), u, v, 0);
+/// @param split  makes the step that the normal takes
+template <class Split>
+void VertexArray::addPoint(const Vec3d& point, Split&& split, std::int64_t u, std::int64_t v) {
+  add(normals_ ? tangentPatch(point, split()) : pointPatch(point), u, v, 0);
 }
 
 /// The blocks of a vertex of the first ring, from row u and column v on.
 void VertexArray::addInF(ExtraordinaryRings& rings, std::size_t place, std::int64_t u,
                          std::int64_t v, int k) {
   for (int l = 0;; ++l, --k) {
-    if (k == 0) return addPoint(rings.ring(l).face.inner[place], u, v);
+    if (k == 0)
+      return addPoint(
+          rings.ring(l).face.inner[place], [&] { return rings.split(l, place); }, u, v);
     const std::int64_t half = std::int64_t{1} << (k - 1);
     const VertexSplit split = rings.split(l, place);
     add(split.childInR(), u + half, v, k - 1);
@@ -79,7 +127,10 @@ void VertexArray::addInF(ExtraordinaryRings& rings, std::size_t place, std::int6
 /// The same from row and column 0 on, with everything turned round.
 void VertexArray::addInK(ExtraordinaryRings& rings, std::size_t place, int k) {
   for (int l = 0;; ++l, --k) {
-    if (k == 0) return addPoint(rings.ring(l).face.inner[place], 0, 0);
+    // Turned by half a turn, tangents have the same normal.
+    if (k == 0)
+      return addPoint(
+          rings.ring(l).face.inner[place], [&] { return rings.split(l, place); }, 0, 0);
     const std::int64_t half = std::int64_t{1} << (k - 1);
     const VertexSplit split = rings.split(l, place);
     add(turned(split.childInR()), 0, half, k - 1);
@@ -97,7 +148,8 @@ void VertexArray::addInCorner(BoundaryCorner corner, int k) {
     add(split.childInF(), half, half, k - 1);
     corner = corner.below(split);
   }
-  addPoint(corner.u, 0, 0);
+  addPoint(
+      corner.u, [&] { return corner.split(); }, 0, 0);
 }
 
 void VertexArray::alongV(std::int64_t i, std::int64_t first, std::span<Vec3d> points) const {
@@ -125,6 +177,34 @@ void VertexArray::alongU(std::int64_t j, std::int64_t first, std::span<Vec3d> po
       points[static_cast<std::size_t>(i - first)] = v(row[0], row[1], row[2]);
     }
   }
+}
+
+void VertexArray::normalsAlongV(std::int64_t i, std::int64_t first,
+                                std::span<Vec3d> normals) const {
+  for (const Block& block : blocks_)
+    if (i >= block.u && i < block.endU())
+      normalsOfBlockAlongV(block, SplinePlace::ofVertex(i - block.u, block.sizeU()), first,
+                           normals);
+}
+
+void VertexArray::normalsAlongU(std::int64_t j, std::int64_t first,
+                                std::span<Vec3d> normals) const {
+  for (const Block& block : blocks_)
+    if (j >= block.v && j < block.endV())
+      normalsOfBlockAlongU(block, SplinePlace::ofVertex(j - block.v, block.sizeV()), first,
+                           normals);
+}
+
+// The mirror image of the surface makes its boundary an end of patches.
+
+void VertexArray::normalsAcrossR(std::int64_t first, std::span<Vec3d> normals) const {
+  for (const Block& block : blocks_)
+    if (block.v == 0) normalsOfBlockAlongU(block, {0}, first, normals);
+}
+
+void VertexArray::normalsAcrossL(std::int64_t first, std::span<Vec3d> normals) const {
+  for (const Block& block : blocks_)
+    if (block.u == 0) normalsOfBlockAlongV(block, {0}, first, normals);
 }
 
 }  // namespace vox

@@ -56,17 +56,22 @@ struct LevelOneVertex {
 /// evaluated in one way, so that they have the same bits for whoever asks.
 class VertexArray {
  public:
-  /// Part of the array: first row and column, logarithms of the sizes.
+  /// Part of the array: first row and column, logarithms of the sizes. Where the vertex of a block
+  /// of one point is not regular, the patch says no more than the point and, if normals are wanted,
+  /// the tangent plane: the normal has the same closed form in every block.
   struct Block {
     Patch patch;
     std::int64_t u, v;
     VertexDepth depth;
-    std::int64_t endU() const { return u + (std::int64_t{1} << depth.u); }
-    std::int64_t endV() const { return v + (std::int64_t{1} << depth.v); }
+    std::int64_t sizeU() const { return std::int64_t{1} << depth.u; }
+    std::int64_t sizeV() const { return std::int64_t{1} << depth.v; }
+    std::int64_t endU() const { return u + sizeU(); }
+    std::int64_t endV() const { return v + sizeV(); }
   };
 
-  /// @param depth  u = v for an irregular vertex
-  void set(const LevelOneVertex& vertex, VertexDepth depth);
+  /// @param depth    u = v for an irregular vertex
+  /// @param normals  whether normals will be asked for; then all around the vertex must be known
+  void set(const LevelOneVertex& vertex, VertexDepth depth, bool normals = false);
   /// The array of a regular vertex of any level.
   void set(const Patch& patch, VertexDepth depth) {
     depth_ = depth;
@@ -90,6 +95,21 @@ class VertexArray {
     return point;
   }
 
+  /// Exact unit normals of the smooth surface at the limit points of these vertices, outward; 0
+  /// where there is none. With the same bits for whoever asks.
+  void normalsAlongV(std::int64_t i, std::int64_t first, std::span<Vec3d> normals) const;
+  void normalsAlongU(std::int64_t j, std::int64_t first, std::span<Vec3d> normals) const;
+  Vec3d normalAt(std::int64_t i, std::int64_t j) const {
+    Vec3d normal;
+    normalsAlongV(i, j, {&normal, 1});
+    return normal;
+  }
+  /// Beside a vertex at the boundary of an extended surface: the normals on the boundary itself,
+  /// across R from the vertices (i, 0), i = first, first + 1, ..., and across L from (0, j). Beside
+  /// a block of one irregular vertex, that vertex's.
+  void normalsAcrossR(std::int64_t first, std::span<Vec3d> normals) const;
+  void normalsAcrossL(std::int64_t first, std::span<Vec3d> normals) const;
+
   Vec3d cornerF() const { return at(sizeU() - 1, sizeV() - 1); }
   Vec3d cornerK() const { return at(0, 0); }
   Vec3d cornerR() const { return at(sizeU() - 1, 0); }
@@ -97,12 +117,14 @@ class VertexArray {
 
  private:
   void add(const Patch& patch, std::int64_t u, std::int64_t v, int k);
-  void addPoint(const Vec3d& point, std::int64_t u, std::int64_t v);
+  template <class Split>
+  void addPoint(const Vec3d& point, Split&& split, std::int64_t u, std::int64_t v);
   void addInF(ExtraordinaryRings& rings, std::size_t place, std::int64_t u, std::int64_t v, int k);
   void addInK(ExtraordinaryRings& rings, std::size_t place, int k);
   void addInCorner(BoundaryCorner corner, int k);
 
   VertexDepth depth_;
+  bool normals_ = false;
   std::vector<Block> blocks_;
 };
 
