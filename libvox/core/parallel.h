@@ -31,6 +31,11 @@ class LoopOrder {
   void partEnds() { release(&end_); }
   void loopEnds() { acquire(&end_); }
 
+  /// For a task that a part hands on, in a closure of its own: before it runs, and first thing in
+  /// it, when not even the closure may be read.
+  static void taskGiven() { release(&tasks_); }
+  static void taskBegins() { acquire(&tasks_); }
+
  private:
 #ifdef __SANITIZE_THREAD__
   static void acquire(char* token) {
@@ -45,6 +50,7 @@ class LoopOrder {
 #endif
   char begin_ = 0;
   char end_ = 0;
+  inline static char tasks_ = 0;
 };
 
 /// Calls body(begin, end) for parts of [0, count) of at least about `grain` elements, in parallel.

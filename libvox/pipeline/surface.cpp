@@ -100,14 +100,16 @@ class DeepPatches {
     for (const auto& row : childrenOf(deep.patch))
       for (const Patch& child : row) {
         const DeepPatch part{child, deep.k - 1, deep.level, deep.part};
-        if (asTasks_)
-          tasks_.run([this, part] {
-            order_.partBegins();
-            mark(part);
-            order_.partEnds();
-          });
-        else
+        if (!asTasks_) {
           mark(part);
+          continue;
+        }
+        LoopOrder::taskGiven();
+        tasks_.run([this, part] {
+          LoopOrder::taskBegins();
+          mark(part);
+          order_.partEnds();
+        });
       }
   }
 
