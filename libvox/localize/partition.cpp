@@ -5,28 +5,88 @@
 #include "libvox/core/parallel.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
 
 namespace vox {
 namespace {
 
 constexpr Index kFacesPerBlock = 16384;
 
-/// Cover of the faces [first, last).
+/// The faces one after another, and where each of them is.
+struct FaceOrder {
+  std::vector<Index> faces;
+  std::vector<Index> places;
+};
+
+FaceOrder inputOrder(Index count) {
+  FaceOrder order;
+  order.faces.resize(count);
+  std::iota(order.faces.begin(), order.faces.end(), Index{0});
+  order.places = order.faces;
+  return order;
+}
+
+/// Bits of a place of 0 .. 2^21 along an axis, two bits apart.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32U) & 0x001F00000000FFFFULL;
+  x = (x | x << 16U) & 0x001F0000FF0000FFULL;
+  x = (x | x << 8U) & 0x100F00F00F00F00FULL;
+  x = (x | x << 4U) & 0x10C30C30C30C30C3ULL;
+  return (x | x << 2U) & 0x1249249249249249ULL;
+}
+
+/// By where their first corners lie on a Z-order curve through the box of the mesh (Morton 1966).
+FaceOrder spatialOrder(const PolygonMesh& mesh) {
+  const Index count = mesh.faceCount();
+  constexpr double kMost = (1 << 21) - 1;
+  Vec3d low = mesh.points[mesh.faceVertices[0]];
+  Vec3d high = low;
+  for (const Index v : mesh.faceVertices) {
+    low = low.cwiseMin(mesh.points[v]);
+    high = high.cwiseMax(mesh.points[v]);
+  }
+  const double scale = kMost / std::max((high - low).maxCoeff(), 1e-300);
+  std::vector<std::pair<std::uint64_t, Index>> codes(count);
+  forEach(count, kFacesPerBlock, [&](Index f) {
+    const Vec3d at = (mesh.points[mesh.faceVertices[mesh.faceOffsets[f]]] - low) * scale;
+    const auto along = [&](int axis) { return spread(static_cast<std::uint64_t>(at[axis])); };
+    codes[f] = {along(0) << 2U | along(1) << 1U | along(2), f};
+  });
+  sortInParallel(codes);
+  FaceOrder order;
+  order.places.resize(count);
+  for (const auto& [code, f] : codes) {
+    order.places[f] = static_cast<Index>(order.faces.size());
+    order.faces.push_back(f);
+  }
+  return order;
+}
+
+/// Cover of the faces at the places [first, last) of an order.
 class BlockCover {
  public:
-  BlockCover(const PolygonMesh& mesh, const Adjacency& adjacency, Index first, Index last)
+  BlockCover(const PolygonMesh& mesh, const Adjacency& adjacency, const FaceOrder& order,
+             Index first, Index last)
       : mesh_(mesh),
         adjacency_(adjacency),
+        order_(order),
         first_(first),
         last_(last),
         covered_(last - first, false) {}
 
   Partition run(Index most) {
     for (const bool onBoundary : {false, true})
-      for (Index f = first_; f < last_; ++f)
-        if (!covered_[f - first_] && hasBoundaryEdge(f) == onBoundary) gather(f, most);
+      for (Index place = first_; place < last_; ++place)
+        if (!covered_[place - first_] && hasBoundaryEdge(order_.faces[place]) == onBoundary)
+          gather(order_.faces[place], most);
     return std::move(cover_);
   }
+
+  /// How often faces were gathered around a centre; with remains, more often than there are
+  /// submeshes.
+  std::size_t centres() const { return centres_; }
 
  private:
   bool hasBoundaryEdge(Index f) const {
@@ -36,6 +96,7 @@ class BlockCover {
   }
 
   void gather(Index centre, Index most) {
+    ++centres_;
     auto& faces = cover_.faces;
     const std::size_t begin = faces.size();
     add(centre);
@@ -46,7 +107,8 @@ class BlockCover {
         const Index t = adjacency_.twin[c];
         if (t == kNone) continue;
         const Index g = adjacency_.cornerFace[t];
-        if (g >= first_ && g < last_ && !covered_[g - first_]) add(g);
+        const Index place = order_.places[g];
+        if (place >= first_ && place < last_ && !covered_[place - first_]) add(g);
       }
     }
     const bool remains = 2 * (faces.size() - begin) < most && cover_.size() > 0 &&
@@ -56,37 +118,60 @@ class BlockCover {
   }
 
   void add(Index f) {
-    covered_[f - first_] = true;
+    covered_[order_.places[f] - first_] = true;
     cover_.faces.push_back(f);
   }
 
   const PolygonMesh& mesh_;
   const Adjacency& adjacency_;
+  const FaceOrder& order_;
   Index first_;
   Index last_;
   std::vector<std::uint8_t> covered_;
+  std::size_t centres_ = 0;
   Partition cover_;
 };
+
+struct Cover {
+  Partition partition;
+  std::size_t centres = 0;
+};
+
+Cover coverInOrder(const PolygonMesh& mesh, const Adjacency& adjacency, const FaceOrder& order,
+                   Index most) {
+  const Index blocks = (mesh.faceCount() + kFacesPerBlock - 1) / kFacesPerBlock;
+  std::vector<Cover> covers(blocks);
+  forEach(blocks, 1, [&](Index b) {
+    const Index first = b * kFacesPerBlock;
+    const Index last = std::min(first + kFacesPerBlock, mesh.faceCount());
+    BlockCover block(mesh, adjacency, order, first, last);
+    covers[b].partition = block.run(most);
+    covers[b].centres = block.centres();
+  });
+  if (blocks == 1) return std::move(covers[0]);
+  Cover all;
+  Partition& partition = all.partition;
+  partition.faces.reserve(mesh.faceCount());
+  for (const auto& [part, centres] : covers) {
+    const auto before = static_cast<Index>(partition.faces.size());
+    partition.faces.insert(partition.faces.end(), part.faces.begin(), part.faces.end());
+    for (Index s = 0; s < part.size(); ++s)
+      partition.offsets.push_back(before + part.offsets[s + 1]);
+    all.centres += centres;
+  }
+  return all;
+}
 
 }  // namespace
 
 Partition coverGreedily(const PolygonMesh& mesh, const Adjacency& adjacency, Index most) {
-  const Index blocks = (mesh.faceCount() + kFacesPerBlock - 1) / kFacesPerBlock;
-  std::vector<Partition> covers(blocks);
-  forEach(blocks, 1, [&](Index b) {
-    const Index first = b * kFacesPerBlock;
-    const Index last = std::min(first + kFacesPerBlock, mesh.faceCount());
-    covers[b] = BlockCover(mesh, adjacency, first, last).run(std::max<Index>(most, 1));
-  });
-  if (blocks == 1) return std::move(covers[0]);
-  Partition all;
-  all.faces.reserve(mesh.faceCount());
-  for (const Partition& cover : covers) {
-    const auto before = static_cast<Index>(all.faces.size());
-    all.faces.insert(all.faces.end(), cover.faces.begin(), cover.faces.end());
-    for (Index s = 0; s < cover.size(); ++s) all.offsets.push_back(before + cover.offsets[s + 1]);
-  }
-  return all;
+  const Index faces = mesh.faceCount();
+  most = std::max<Index>(most, 1);
+  Cover cover = coverInOrder(mesh, adjacency, inputOrder(faces), most);
+  constexpr std::size_t kScattered = 4;
+  const bool scattered = faces > kFacesPerBlock && cover.centres > kScattered * (faces / most + 1);
+  if (scattered) cover = coverInOrder(mesh, adjacency, spatialOrder(mesh), most);
+  return std::move(cover.partition);
 }
 
 }  // namespace vox

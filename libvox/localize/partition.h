@@ -25,8 +25,9 @@ struct Partition {
 /// fewer than half as many faces are put together with the submesh before them.
 ///
 /// Works on blocks of consecutive faces in parallel, which submeshes do not cross: the input's
-/// order is mostly local, and then little is lost. Deterministic; the result does not depend on
-/// threads.
+/// order is mostly local, and then little is lost. Where it is not, as the cover of a larger mesh
+/// falling to pieces shows, the faces are put into spatial order and covered again. Deterministic;
+/// the result does not depend on threads.
 ///
 /// @param most  faces of a submesh, at least 1
 /// Cost O(C). Source: paper section 4.
