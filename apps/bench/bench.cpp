@@ -1,8 +1,10 @@
 // In-process timings: of the stages on a generated torus grid, beside CGAL's Doo-Sabin in the same
-// run, of the engine, and of whole conversions of every generated mesh. `vox_bench [MESH...]` adds
-// mesh files to the engine's; --benchmark_format=json prints JSON; see --help for more.
+// run, of the engine, of files, of pictures, and of whole conversions of every generated mesh.
+// `vox_bench [MESH...]` adds mesh files to the engine's; --benchmark_format=json prints JSON; see
+// --help for more.
 
 #include "apps/bench/engine_bench.h"
+#include "apps/bench/file_bench.h"
 #include "apps/bench/inputs.h"
 #include "apps/bench/render_bench.h"
 #include "libvox/core/error.h"
@@ -112,6 +114,7 @@ int main(int argc, char** argv) {
     meshFiles.emplace_back(argv[i]);
   }
   bench::registerEngine(meshFiles);
+  bench::registerFiles();
   bench::registerRender();
   registerConversions();
   benchmark::RunSpecifiedBenchmarks();

@@ -1,4 +1,4 @@
-// Bytes to bits, and bits to the shared grid.
+// Voxels to bits, and bits to the shared grid.
 
 // Highway compiles this file once per instruction set, between HWY_BEFORE_ and HWY_AFTER_NAMESPACE.
 #undef HWY_TARGET_INCLUDE
@@ -16,19 +16,6 @@
 #ifndef VOX_LEAF_CACHE_SHARED
 #define VOX_LEAF_CACHE_SHARED
 namespace vox {
-namespace {
-
-constexpr std::size_t kLeafMarks = 512;
-constexpr std::size_t kBrickLeaves = LeafCache::kMarks / kLeafMarks;
-
-/// Leaves that had marks, by their number in the list, and their bits.
-struct PackedLeaves {
-  std::array<std::uint8_t, kBrickLeaves + 1> number;
-  alignas(64) std::array<LeafWords, kBrickLeaves + 1> words;
-};
-
-}  // namespace
-
 constexpr std::size_t kMostLanes = 8;
 constexpr std::size_t kPlacesAtOnce = 64;
 
@@ -46,50 +33,6 @@ struct LeafCache::VoxelPlaces {
 HWY_BEFORE_NAMESPACE();
 namespace vox::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Turns the 512 marks of a leaf into bits and clears them.
-/// @return whether there were any
-#if HWY_TARGET == HWY_SCALAR
-inline bool packLeaf(std::uint8_t* marks, std::uint64_t* words) {
-  std::uint64_t any = 0;
-  for (std::size_t word = 0; word < 8; ++word) {
-    words[word] = 0;
-    for (std::size_t bit = 0; bit < 64; ++bit)
-      words[word] |= std::uint64_t{marks[64 * word + bit] != 0} << bit;
-    any |= words[word];
-  }
-  if (any != 0) std::fill_n(marks, kLeafMarks, std::uint8_t{0});
-  return any != 0;
-}
-#else
-inline bool packLeaf(std::uint8_t* HWY_RESTRICT marks, std::uint64_t* HWY_RESTRICT words) {
-  const hn::CappedTag<std::uint8_t, 64> bytes;
-  const hn::Repartition<std::int8_t, decltype(bytes)> signs;
-  const std::size_t lanes = hn::Lanes(bytes);
-  auto any = hn::Zero(bytes);
-  for (std::size_t i = 0; i < kLeafMarks; i += lanes) any = hn::Or(any, hn::Load(bytes, marks + i));
-  if (hn::AllFalse(bytes, hn::Ne(any, hn::Zero(bytes)))) return false;
-  auto* bits = reinterpret_cast<std::uint8_t*>(words);
-  for (std::size_t i = 0; i < kLeafMarks; i += lanes) {
-    const auto marked = hn::Lt(hn::BitCast(signs, hn::Load(bytes, marks + i)), hn::Zero(signs));
-    hn::StoreMaskBits(signs, marked, bits + i / 8);
-    hn::Store(hn::Zero(bytes), bytes, marks + i);
-  }
-  return true;
-}
-#endif
-
-/// Packs several leaves, given by their slots.
-/// @return how many had marks
-std::size_t packLeaves(std::uint8_t* marks, const std::uint8_t* slots, std::size_t count,
-                       PackedLeaves& packed) {
-  std::size_t touched = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    packed.number[touched] = static_cast<std::uint8_t>(k);
-    touched += packLeaf(marks + slots[k] * kLeafMarks, packed.words[touched].data());
-  }
-  return touched;
-}
 
 /// Where voxelOf puts positions, a multiple of kMostLanes.
 void place(const double* HWY_RESTRICT positions, std::size_t count,
@@ -111,9 +54,9 @@ void place(const double* HWY_RESTRICT positions, std::size_t count,
     const auto x = round(xs);
     const auto y = round(ys);
     const auto z = round(zs);
-    const auto leafX = hn::ShiftRight<LeafCache::kLeafLog2>(x);
-    const auto leafY = hn::ShiftRight<LeafCache::kLeafLog2>(y);
-    const auto leafZ = hn::ShiftRight<LeafCache::kLeafLog2>(z);
+    const auto leafX = hn::ShiftRight<MarkBrick::kLeafLog2>(x);
+    const auto leafY = hn::ShiftRight<MarkBrick::kLeafLog2>(y);
+    const auto leafZ = hn::ShiftRight<MarkBrick::kLeafLog2>(z);
     hn::Store(leafX, d32, places.leaf[0].data() + i);
     hn::Store(leafY, d32, places.leaf[1].data() + i);
     hn::Store(leafZ, d32, places.leaf[2].data() + i);
@@ -129,47 +72,20 @@ HWY_AFTER_NAMESPACE();
 namespace vox {
 namespace {
 
-HWY_EXPORT(packLeaves);
 HWY_EXPORT(place);
 
-constexpr std::align_val_t kAlignment{64};
 constexpr std::size_t kMostPending = 256;
 
 }  // namespace
 
-void LeafCache::FreeMarks::operator()(std::uint8_t* marks) const {
-  ::operator delete[](marks, kAlignment);
-}
-
-LeafCache::LeafCache(SurfaceGrid& grid)
-    : grid_(grid),
-      marks_(static_cast<std::uint8_t*>(::operator new[](kMarks, kAlignment))),
-      words_(kSlots),
-      leaves_(kSlots, kNoLeaf) {
+LeafCache::LeafCache(SurfaceGrid& grid) : grid_(grid), words_(kSlots), leaves_(kSlots, kNoLeaf) {
   pending_.reserve(kMostPending);
-  std::fill_n(marks_.get(), kMarks, std::uint8_t{0});
 }
 
 void LeafCache::collect(const openvdb::Coord& low, const openvdb::Coord& high) {
-  const openvdb::Coord first = low >> kLeafLog2;
-  const openvdb::Coord last = high >> kLeafLog2;
-  constexpr std::int32_t kMask = kBrickSide - 1;
-  std::array<std::uint8_t, kBrickLeaves> slots;
-  std::array<LeafCoord, kBrickLeaves> leaves;
-  std::size_t count = 0;
-  for (std::int32_t x = first.x(); x <= last.x(); ++x)
-    for (std::int32_t y = first.y(); y <= last.y(); ++y)
-      for (std::int32_t z = first.z(); z <= last.z(); ++z) {
-        slots[count] = static_cast<std::uint8_t>((x & kMask) << 4 | (y & kMask) << 2 | (z & kMask));
-        leaves[count++] = {x, y, z};
-      }
-  PackedLeaves packed;
-  const std::size_t touched =
-      HWY_DYNAMIC_DISPATCH(packLeaves)(marks_.get(), slots.data(), count, packed);
-  for (std::size_t k = 0; k < touched; ++k) {
-    const LeafCoord& leaf = leaves[packed.number[k]];
-    send(leaf, packed.words[k]);
-  }
+  MarkBrick::Taken taken;
+  brick_.take(low, high, taken);
+  for (std::size_t k = 0; k < taken.count; ++k) send(taken.origins[k], taken.words[k]);
 }
 
 void LeafCache::add(std::span<const Vec3d> positions) {
@@ -226,7 +142,10 @@ void LeafCache::addBlock(const openvdb::Coord& origin, std::uint64_t voxels) {
 }
 
 void LeafCache::send(const LeafCoord& leaf, const LeafWords& words) {
-  const openvdb::Coord origin(leaf.x << kLeafLog2, leaf.y << kLeafLog2, leaf.z << kLeafLog2);
+  send(openvdb::Coord(leaf.x << kLeafLog2, leaf.y << kLeafLog2, leaf.z << kLeafLog2), words);
+}
+
+void LeafCache::send(const openvdb::Coord& origin, const LeafWords& words) {
   constexpr std::int32_t kPage = 128;
   constexpr std::int32_t kPageMask = ~(kPage - 1);
   const openvdb::Coord pageOrigin(origin.x() & kPageMask, origin.y() & kPageMask,

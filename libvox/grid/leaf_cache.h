@@ -1,43 +1,32 @@
 #pragma once
 
 #include "libvox/core/types.h"
+#include "libvox/grid/mark_brick.h"
 #include "libvox/grid/surface_grid.h"
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 namespace vox {
 
 /// One thread's private way into a SurfaceGrid, in three steps that each save the next one work.
-/// Kernels mark voxels as bytes in a brick of 4 x 4 x 4 leaves, which lives in the first-level
-/// cache, and collect() packs the leaves that were touched into bits. Single voxels go into a cache
-/// of 8 x 8 x 8 leaves of bits. Both wait in a list that takes the lock of a page once for many
-/// leaves. Brick and cache are addressed by leaf coordinates modulo their size, so they lie
-/// wherever their leaves are.
-///
-/// Mark index of a voxel: bits 0-2 z, 3-5 y, 6-8 x (within the leaf, OpenVDB's order), 9-10 z,
-/// 11-12 y, 13-14 x (of the leaf).
+/// Kernels mark voxels as bytes in a brick (mark_brick.h), and collect() packs the leaves that were
+/// touched into bits. Single voxels go into a cache of 8 x 8 x 8 leaves of bits, addressed by leaf
+/// coordinates modulo its size. Both wait in a list that takes the lock of a page once for many
+/// leaves.
 ///
 /// One per thread. What it holds reaches the grid with flush() at the latest.
 class LeafCache {
  public:
-  static constexpr int kLeafLog2 = 3;
-  static constexpr int kBrickLog2 = 2;                        ///< leaves along a side of the brick
-  static constexpr int kBrickSide = 1 << kBrickLog2;          ///< 4
-  static constexpr int kVoxelSide = kBrickSide << kLeafLog2;  ///< 32
-  static constexpr std::size_t kMarks = std::size_t{1} << (3 * (kLeafLog2 + kBrickLog2));
-  static constexpr std::uint8_t kMarked = 0xFF;
-
   explicit LeafCache(SurfaceGrid& grid);
 
-  /// kMarks bytes, all 0 between calls of collect.
-  std::uint8_t* marks() { return marks_.get(); }
+  /// MarkBrick::kMarks bytes, all 0 between calls of collect.
+  std::uint8_t* marks() { return brick_.marks(); }
 
-  /// Takes the marks in the leaves of a box of voxels, at most kBrickSide leaves along each axis,
-  /// and clears them. No other leaf may be marked.
+  /// Takes the marks in the leaves of a box of voxels that fits (MarkBrick) and clears them. No
+  /// other leaf may be marked.
   /// @throws LimitError  the grid may not grow
   void collect(const openvdb::Coord& low, const openvdb::Coord& high);
 
@@ -65,9 +54,7 @@ class LeafCache {
   struct VoxelPlaces;
 
  private:
-  struct FreeMarks {
-    void operator()(std::uint8_t* marks) const;
-  };
+  static constexpr int kLeafLog2 = MarkBrick::kLeafLog2;
   struct LeafCoord {
     std::int32_t x, y, z;
     bool operator==(const LeafCoord&) const = default;
@@ -90,10 +77,11 @@ class LeafCache {
   void addPlaces(const VoxelPlaces& places, std::size_t count);
   void replace(std::size_t slot, const LeafCoord& leaf);
   void send(const LeafCoord& leaf, const LeafWords& words);
+  void send(const openvdb::Coord& origin, const LeafWords& words);
   void drain();
 
   SurfaceGrid& grid_;
-  std::unique_ptr<std::uint8_t[], FreeMarks> marks_;
+  MarkBrick brick_;
   std::vector<LeafWords> words_;                // per slot
   std::vector<LeafCoord> leaves_;               // whose they are
   std::vector<SurfaceGrid::PageLeaf> pending_;  // on their way to the grid, to lock pages seldom

@@ -5,7 +5,7 @@
 #define HWY_TARGET_INCLUDE "libvox/voxelize/tile.cpp"
 #include "libvox/voxelize/tile.h"
 
-#include "libvox/grid/leaf_cache.h"
+#include "libvox/grid/mark_brick.h"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -18,7 +18,7 @@
 namespace vox {
 namespace {
 
-constexpr int kFractionBits = 27;  // and 5 for the 32 voxels of a LeafCache
+constexpr int kFractionBits = 27;  // and 5 for the 32 voxels of a MarkBrick
 constexpr std::uint32_t kHalf = std::uint32_t{1} << (kFractionBits - 1);
 /// Added to a small multiple of 2^-kFractionBits, it leaves the integer in the low bits of a
 /// double.
@@ -120,7 +120,7 @@ inline void markRows(const Rows& rows, std::size_t n, std::uint8_t* marks) {
     const std::uint32_t y = at[1] >> kFractionBits;
     const std::uint32_t z = at[2] >> kFractionBits;
     marks[(x & 24U) << 10U | (y & 24U) << 8U | (z & 24U) << 6U | (x & 7U) << 6U | (y & 7U) << 3U |
-          (z & 7U)] = LeafCache::kMarked;
+          (z & 7U)] = MarkBrick::kMarked;
   });
 }
 
@@ -184,7 +184,7 @@ HWY_INLINE hn::Vec<D16> highHalves(D16 d16, V a, V b) {
   return hn::OddEven(hn::BitCast(d16, b), hn::BitCast(d16, hn::ShiftRight<16>(a)));
 }
 
-/// Index of a mark (leaf_cache.h) from coordinates whose bits 11-15 count voxels.
+/// Index of a mark (mark_brick.h) from coordinates whose bits 11-15 count voxels.
 template <class D16, class V>
 HWY_INLINE V markIndex(D16 d16, V x, V y, V z) {
   const auto in = hn::Set(d16, std::uint16_t{0x3800});
@@ -213,7 +213,7 @@ void markGroups(const Rows& rows, std::size_t n, std::uint8_t* HWY_RESTRICT mark
                 d16, index.data());
       a.step();
       b.step();
-      for (std::size_t lane = 0; lane < 2 * lanes; ++lane) marks[index[lane]] = LeafCache::kMarked;
+      for (std::size_t lane = 0; lane < 2 * lanes; ++lane) marks[index[lane]] = MarkBrick::kMarked;
     }
   }
 }
@@ -282,7 +282,7 @@ TileControls tileControls(const Patch& patch) {
   TileControls controls;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    constexpr double kSide = LeafCache::kVoxelSide;
+    constexpr double kSide = MarkBrick::kVoxelSide;
     const double origin = kSide * std::floor(patch.points[1][1][axis] / kSide);
     for (std::size_t u = 0; u < 3; ++u)
       for (std::size_t v = 0; v < 3; ++v) controls[a][u][v] = patch.points[u][v][axis] - origin;

@@ -7,9 +7,9 @@
 
 namespace vox {
 
-// A tile is a regular patch that fits into a LeafCache: N x N vertices, N = 2^k, within 4 leaves
+// A tile is a regular patch that fits into a MarkBrick: N x N vertices, N = 2^k, within 4 leaves
 // along each axis. Coordinates are a quadratic polynomial along each row, so they are stepped by
-// forward differences in fixed point modulo 32 voxels, which is just what a LeafCache counts in.
+// forward differences in fixed point modulo 32 voxels, which is just what a MarkBrick counts in.
 //
 // Error: with 27 fractional bits, an end of a difference is off by at most e = 2^-28. Value j of a
 // row starts off by e, its first differences add j e and its second ones j (j - 1) / 2 e: for N <=
@@ -31,7 +31,7 @@ using TileControls = std::array<std::array<std::array<double, 3>, 3>, 3>;
 TileControls tileControls(const Patch& patch);
 
 /// Marks the voxels of all N x N vertices of a tile, N = 2^k with kLeastTileLevels <= k <=
-/// kMostTileLevels, in the bytes of a LeafCache. The same bits on every processor: additions of
+/// kMostTileLevels, in the bytes of a MarkBrick. The same bits on every processor: additions of
 /// integers, after products and sums of doubles in a fixed order.
 void markTile(const TileControls& controls, int k, std::uint8_t* marks);
 

@@ -4,37 +4,14 @@
 
 #include "libvox/grid/voxel.h"
 #include "libvox/voxelize/tile.h"
+#include "libvox/voxelize/voxel_box.h"
 
 namespace vox {
 namespace {
 
-using openvdb::Coord;
-
 std::array<Vec3d, 4> refine(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return {(3.0 * a + b) / 4.0, (a + 3.0 * b) / 4.0, (3.0 * b + c) / 4.0, (b + 3.0 * c) / 4.0};
 }
-
-/// Box of the Bezier points of a patch, which holds all its descendants: each level cuts corners.
-struct VoxelBox {
-  Coord low, high;
-  explicit VoxelBox(const Patch& patch) {
-    const auto bezier = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-      return std::array<Vec3d, 3>{(a + b) / 2.0, b, (b + c) / 2.0};
-    };
-    std::array<std::array<Vec3d, 3>, 3> rows;
-    for (std::size_t u = 0; u < 3; ++u)
-      rows[u] = bezier(patch.points[u][0], patch.points[u][1], patch.points[u][2]);
-    Vec3d least = rows[1][1];
-    Vec3d most = rows[1][1];
-    for (std::size_t v = 0; v < 3; ++v)
-      for (const Vec3d& point : bezier(rows[0][v], rows[1][v], rows[2][v])) {
-        least = least.cwiseMin(point);
-        most = most.cwiseMax(point);
-      }
-    low = voxelOf(least - Vec3d::Constant(kTileError));
-    high = voxelOf(most + Vec3d::Constant(kTileError));
-  }
-};
 
 constexpr std::size_t kMostSmallVertices = std::size_t{1} << (2 * (kLeastTileLevels - 1));
 
@@ -45,12 +22,6 @@ std::span<const PatchWeights> smallWeights(int k) {
       {{0, 1}, {0, 2}, {1, 2}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
   const std::size_t n = std::size_t{1} << k;
   return std::span(kWeights).subspan(n - 1, n);
-}
-
-bool fitsLeafCache(const VoxelBox& box) {
-  const Coord leaves = (box.high >> LeafCache::kLeafLog2) - (box.low >> LeafCache::kLeafLog2);
-  return leaves.x() < LeafCache::kBrickSide && leaves.y() < LeafCache::kBrickSide &&
-         leaves.z() < LeafCache::kBrickSide;
 }
 
 }  // namespace
@@ -130,8 +101,8 @@ std::uint64_t VertexSink::markFewQuadrants(const Patch& patch, int k) {
 void VertexSink::markWhole(const Patch& patch, int k) {
   if (k < kLeastTileLevels) return markSmall(patch, k);
   if (k <= kMostTileLevels) {
-    const VoxelBox box(patch);
-    if (fitsLeafCache(box)) {
+    const VoxelBox box(patch, kTileError);
+    if (MarkBrick::fits(box.low, box.high)) {
       markTile(tileControls(patch), k, cache_.marks());
       cache_.collect(box.low, box.high);
       return;

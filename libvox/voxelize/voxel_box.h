@@ -1,0 +1,36 @@
+#pragma once
+
+#include "libvox/grid/voxel.h"
+#include "libvox/mesh/patch.h"
+
+#include <array>
+
+namespace vox {
+
+/// Voxels that the descendants of a patch may fall into: the box of its Bezier points, which holds
+/// them all, since each level cuts corners.
+struct VoxelBox {
+  openvdb::Coord low, high;
+
+  /// @param patch   complete
+  /// @param margin  by which descendants may be computed wrongly, in voxels
+  VoxelBox(const Patch& patch, double margin) {
+    const auto bezier = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+      return std::array<Vec3d, 3>{(a + b) / 2.0, b, (b + c) / 2.0};
+    };
+    std::array<std::array<Vec3d, 3>, 3> rows;
+    for (std::size_t u = 0; u < 3; ++u)
+      rows[u] = bezier(patch.points[u][0], patch.points[u][1], patch.points[u][2]);
+    Vec3d least = rows[1][1];
+    Vec3d most = rows[1][1];
+    for (std::size_t v = 0; v < 3; ++v)
+      for (const Vec3d& point : bezier(rows[0][v], rows[1][v], rows[2][v])) {
+        least = least.cwiseMin(point);
+        most = most.cwiseMax(point);
+      }
+    low = voxelOf(least - Vec3d::Constant(margin));
+    high = voxelOf(most + Vec3d::Constant(margin));
+  }
+};
+
+}  // namespace vox
