@@ -12,38 +12,78 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
 namespace vox {
 namespace {
 
-/// Where on a triangle the point nearest to p is: weights of the corners.
-/// Source: Ericson 2005, "Real-Time Collision Detection", section 5.1.5.
-std::array<double, 3> nearestOn(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
-  const Vec3d ab = b - a;
-  const Vec3d ac = c - a;
-  const double d1 = ab.dot(p - a);
-  const double d2 = ac.dot(p - a);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = ab.dot(p - b);
-  const double d4 = ac.dot(p - b);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double d5 = ab.dot(p - c);
-  const double d6 = ac.dot(p - c);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double inC = d1 * d4 - d3 * d2;
-  if (inC <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const double inB = d5 * d2 - d1 * d6;
-  if (inB <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double inA = d3 * d6 - d5 * d4;
-  const double fromB = d4 - d3;
-  const double fromC = d5 - d6;
-  if (inA <= 0 && fromB >= 0 && fromC >= 0)
-    return {0, fromC / (fromB + fromC), fromB / (fromB + fromC)};
-  const double sum = inA + inB + inC;
-  return {inA / sum, inB / sum, inC / sum};
-}
+/// A triangle whose normal is a blend of those of its corners.
+class BlendedTriangle {
+ public:
+  BlendedTriangle() = default;
+  /// @param flat  the normal where the corners have none to speak of
+  BlendedTriangle(const std::array<Vec3d, 3>& corners, std::array<Vec3d, 3> normals,
+                  const Vec3d& flat)
+      : a_(corners[0]),
+        ab_(corners[1] - corners[0]),
+        ac_(corners[2] - corners[0]),
+        flat_(flat),
+        abAb_(ab_.squaredNorm()),
+        abAc_(ab_.dot(ac_)),
+        acAc_(ac_.squaredNorm()) {
+    for (Vec3d& normal : normals)
+      if (normal.isZero(0)) normal = flat;
+    normal_ = normals[0];
+    toB_ = normals[1] - normals[0];
+    toC_ = normals[2] - normals[0];
+  }
+
+  /// Unit normal at the point nearest to p.
+  Vec3d normalNear(const Vec3d& p) const {
+    const auto [b, c] = nearest(p);
+    const Vec3d normal = normal_ + b * toB_ + c * toC_;
+    const double square = normal.squaredNorm();
+    constexpr double kLeast = 1e-6;  // of normals that point away from each other
+    return square > kLeast * kLeast ? Vec3d(normal / std::sqrt(square)) : flat_;
+  }
+
+ private:
+  struct Weights {
+    double b, c;
+  };
+
+  /// Weights of two corners in the nearest point. Source: Ericson 2005, "Real-Time Collision
+  /// Detection", section 5.1.5; sides without length are never the nearest.
+  Weights nearest(const Vec3d& p) const {
+    const double ab = ab_.dot(p - a_);
+    const double ac = ac_.dot(p - a_);
+    if (ab <= 0 && ac <= 0) return {0, 0};
+    const double abFromB = ab - abAb_;
+    const double acFromB = ac - abAc_;
+    if (abFromB >= 0 && acFromB <= abFromB) return {1, 0};
+    const double abFromC = ab - abAc_;
+    const double acFromC = ac - acAc_;
+    if (acFromC >= 0 && abFromC <= acFromC) return {0, 1};
+    const double inC = ab * acFromB - abFromB * ac;
+    if (inC <= 0 && ab >= 0 && abFromB <= 0 && abAb_ > 0) return {ab / abAb_, 0};
+    const double inB = abFromC * ac - ab * acFromC;
+    if (inB <= 0 && ac >= 0 && acFromC <= 0 && acAc_ > 0) return {0, ac / acAc_};
+    const double inA = abFromB * acFromC - abFromC * acFromB;
+    const double fromB = acFromB - abFromB;
+    const double fromC = abFromC - acFromC;
+    if (inA <= 0 && fromB >= 0 && fromC >= 0 && fromB + fromC > 0)
+      return {fromC / (fromB + fromC), fromB / (fromB + fromC)};
+    const double sum = inA + inB + inC;
+    if (!(sum > 0)) return {1.0 / 3, 1.0 / 3};
+    return {inB / sum, inC / sum};
+  }
+
+  Vec3d a_, ab_, ac_;
+  Vec3d normal_, toB_, toC_, flat_;
+  double abAb_ = 0, abAc_ = 0, acAc_ = 0;
+};
 
 /// One thread's way from polygons to means.
 class NormalSink : public PolygonSink {
@@ -56,22 +96,13 @@ class NormalSink : public PolygonSink {
   void polygons(const PolygonMesh& piece, std::span<const Vec3d> normals) override {
     if (!smooth_) return faces(piece, 0, piece.faceCount());
     triangulate(piece, 0, piece.faceCount());
+    BlendedTriangle triangle;
+    Index last = kNone;
     scanTriangles(piece.points, triangles_, Separation::k26, [&](const VoxelBlock& block) {
-      const auto& corners = triangles_[block.triangle];
-      const Vec3d& flat = normals_[block.triangle];
-      const Vec3d &a = piece.points[corners[0]], &b = piece.points[corners[1]],
-                  &c = piece.points[corners[2]];
-      const auto normalAt = [&](std::size_t i) -> const Vec3d& {
-        const Vec3d& normal = normals[corners[i]];
-        return normal.isZero(0) ? flat : normal;
-      };
+      if (block.triangle != last) triangle = blended(piece, normals, block.triangle);
+      last = block.triangle;
       forEachVoxel(block, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-        const auto weights = nearestOn(a, b, c, Vec3d(x, y, z));
-        const Vec3d normal =
-            weights[0] * normalAt(0) + weights[1] * normalAt(1) + weights[2] * normalAt(2);
-        // Not so where the corners' point away from each other.
-        const bool sound = normal.squaredNorm() > kLeastBlend * kLeastBlend;
-        writer_.add({x, y, z}, sound ? normal.normalized() : flat);
+        writer_.add({x, y, z}, triangle.normalNear(Vec3d(x, y, z)));
       });
     });
   }
@@ -87,7 +118,13 @@ class NormalSink : public PolygonSink {
   }
 
  private:
-  static constexpr double kLeastBlend = 1e-6;
+  BlendedTriangle blended(const PolygonMesh& piece, std::span<const Vec3d> normals,
+                          Index triangle) const {
+    const auto& [a, b, c] = triangles_[triangle];
+    return {{piece.points[a], piece.points[b], piece.points[c]},
+            {normals[a], normals[b], normals[c]},
+            normals_[triangle]};
+  }
 
   void triangulate(const PolygonMesh& mesh, Index begin, Index end) {
     triangles_.clear();
