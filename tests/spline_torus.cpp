@@ -76,7 +76,7 @@ double SplineTorus::volume() const {
   return volume;
 }
 
-double SplineTorus::distance(const Vec3d& point) const {
+std::array<double, 2> SplineTorus::nearest(const Vec3d& point) const {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; s < samples_.size(); ++s)
@@ -98,8 +98,18 @@ double SplineTorus::distance(const Vec3d& point) const {
     u -= move.x();
     v -= move.y();
   }
+  return {u, v};
+}
+
+double SplineTorus::distance(const Vec3d& point) const {
+  const auto [u, v] = nearest(point);
   const Vec3d r = point - at(u, v);
   return r.dot(normalAt(u, v)) < 0 ? -r.norm() : r.norm();
+}
+
+Vec3d SplineTorus::normalNear(const Vec3d& point) const {
+  const auto [u, v] = nearest(point);
+  return normalAt(u, v);
 }
 
 }  // namespace vox::test

@@ -2,6 +2,7 @@
 
 #include "libvox/core/types.h"
 
+#include <array>
 #include <vector>
 
 namespace vox::test {
@@ -22,11 +23,15 @@ class SplineTorus {
   /// sample by Newton's method.
   double distance(const Vec3d& point) const;
 
+  /// Normal at the point of the surface nearest to one near it.
+  Vec3d normalNear(const Vec3d& point) const;
+
  private:
   struct Frame {
     Vec3d at, du, dv, duu, duv, dvv;
   };
   Frame frame(double u, double v) const;
+  std::array<double, 2> nearest(const Vec3d& point) const;
 
   int major_, minor_;
   std::vector<Vec3d> controls_;

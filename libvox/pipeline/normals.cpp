@@ -1,23 +1,20 @@
-// Normals to voxels: paper section 8.
+// Normals of polygons to voxels: paper section 8.
 
 #include "libvox/pipeline/normals.h"
 
 #include "libvox/core/parallel.h"
-#include "libvox/localize/partition.h"
 #include "libvox/mesh/area_vector.h"
 #include "libvox/pipeline/refined_polygons.h"
 #include "libvox/pipeline/surface.h"
-#include "libvox/subdivide/local_vertices.h"
-#include "libvox/subdivide/stop.h"
-#include "libvox/voxelize/normal_sampler.h"
+#include "libvox/pipeline/vertex_normals.h"
+#include "libvox/voxelize/blended_triangle.h"
 #include "libvox/voxelize/scan.h"
 #include "libvox/voxelize/triangulate.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 namespace vox {
@@ -28,12 +25,25 @@ class NormalSink : public PolygonSink {
  public:
   explicit NormalSink(VoxelMeans& means) : writer_(means) {}
 
-  void polygons(const PolygonMesh& piece) override { faces(piece, 0, piece.faceCount()); }
+  bool wantsNormals() const override { return true; }
 
+  /// Faces that bend with the surface they stand for.
+  void polygons(const PolygonMesh& piece, std::span<const Vec3d> normals) override {
+    triangulate(piece, 0, piece.faceCount());
+    BlendedTriangle triangle;
+    Index last = kNone;
+    scanTriangles(piece.points, triangles_, Separation::k26, [&](const VoxelBlock& block) {
+      if (block.triangle != last) triangle = blended(piece, normals, block.triangle);
+      last = block.triangle;
+      forEachVoxel(block, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+        writer_.add({x, y, z}, triangle.normalNear(Vec3d(x, y, z)));
+      });
+    });
+  }
+
+  /// Faces that are flat.
   void faces(const PolygonMesh& mesh, Index begin, Index end) {
-    triangles_.clear();
-    normals_.clear();
-    for (Index f = begin; f != end; ++f) addTriangles(mesh, f);
+    triangulate(mesh, begin, end);
     scanTriangles(mesh.points, triangles_, Separation::k26, [this](const VoxelBlock& block) {
       forEachVoxel(block, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
         writer_.add({x, y, z}, normals_[block.triangle]);
@@ -42,6 +52,20 @@ class NormalSink : public PolygonSink {
   }
 
  private:
+  BlendedTriangle blended(const PolygonMesh& piece, std::span<const Vec3d> normals,
+                          Index triangle) const {
+    const auto& [a, b, c] = triangles_[triangle];
+    return {{piece.points[a], piece.points[b], piece.points[c]},
+            {normals[a], normals[b], normals[c]},
+            normals_[triangle]};
+  }
+
+  void triangulate(const PolygonMesh& mesh, Index begin, Index end) {
+    triangles_.clear();
+    normals_.clear();
+    for (Index f = begin; f != end; ++f) addTriangles(mesh, f);
+  }
+
   void addTriangles(const PolygonMesh& mesh, Index f) {
     const auto face = mesh.face(f);
     const Vec3d normal =
@@ -54,75 +78,14 @@ class NormalSink : public PolygonSink {
   VoxelMeans::Writer writer_;
   FaceTriangulator faces_;
   std::vector<std::array<Index, 3>> triangles_;  // of a piece
-  std::vector<Vec3d> normals_;                   // of these
+  std::vector<Vec3d> normals_;                   // of their polygons
 };
-
-/// One thread's part of normals at vertices.
-struct VertexNormals {
-  LocalVertices vertices;
-  VertexArray array;
-  explicit VertexNormals(const SubdivisionLevel& base) : vertices(base) {}
-};
-using Samplers = tbb::enumerable_thread_specific<NormalSampler>;
-
-/// Patches of more levels are shared among threads.
-constexpr int kMostLevelsOfTask = 8;
-
-void samplePatch(const Patch& patch, int rows, int columns, Samplers& samplers) {
-  if (std::max(rows, columns) <= kMostLevelsOfTask)
-    return samplers.local().patch(patch, rows, columns);
-  const bool turn = rows < columns;
-  const auto halves = halvesAlongU(turn ? quarterTurn(patch) : patch);
-  forEach(halves.size(), 1, [&](std::size_t half) {
-    samplePatch(halves[half], std::max(rows, columns) - 1, std::min(rows, columns), samplers);
-  });
-}
-
-void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
-                  VertexNormals& normals, Samplers& samplers) {
-  const LevelOneVertex vertex = normals.vertices.at(corner);
-  // As many vertices of a patch as blacken voxels: with fewer, voxels would be left out.
-  const auto sample = [&](const Patch& partial) {
-    const Patch patch = continued(partial);
-    const PatchDepth depth = patchDepth(patch);
-    samplePatch(patch, depth.alongU, depth.alongV, samplers);
-  };
-  if (vertex.regular) return sample(vertex.patch);
-  const VertexFaces faces = normals.vertices.facesAt(corner);
-  if (!vertex.whole()) return samplers.local().point(vertex.at, faces.f.normal);
-  normals.array.set(vertex, rule.of(vertex, &faces, {}), true);
-  for (const VertexArray::Block& block : normals.array.blocks()) sample(block.patch);
-}
-
-void addAtVertices(const SubdivisionLevel& base, Progress& progress, VoxelMeans& means) {
-  const DepthRule rule(StopRule{.diameter = 1});
-  const Partition partition = coverGreedily(base.mesh, base.adjacency, kDefaultSubmeshFaces);
-  Samplers samplers([&] { return NormalSampler(means); });
-  tbb::enumerable_thread_specific<VertexNormals> threads([&] { return VertexNormals(base); });
-  forEach(partition.size(), 1, [&](Index s) {
-    progress.check();
-    // Isolated: a thread that waits for parts of a patch must not begin another submesh.
-    tbb::this_task_arena::isolate([&] {
-      VertexNormals& normals = threads.local();
-      const auto faces = partition.submesh(s);
-      normals.vertices.set(faces);
-      Index slot = 0;
-      for (const Index f : faces) {
-        const Index size = base.mesh.faceSize(f);
-        LocalVertices::Corner c{slot, 0, size, base.mesh.faceOffsets[f]};
-        for (Index i = 0; i < size; ++i, c = c.next()) sampleVertex(c, rule, normals, samplers);
-        slot += size;
-      }
-    });
-    progress.done(1.0 / static_cast<double>(partition.size()));
-  });
-}
 
 }  // namespace
 
 void addNormals(const SubdivisionLevel& base, const ConversionWay& way, Progress& progress,
                 VoxelMeans& means) {
-  if (!way.polygons) return addAtVertices(base, progress, means);
+  if (!way.polygons) return addNormalsOfVertices(base, progress, means);
   tbb::enumerable_thread_specific<NormalSink> sinks([&] { return NormalSink(means); });
   if (way.until.levels == 0) {
     constexpr std::size_t kFacesPerPart = 64;

@@ -7,10 +7,14 @@
 
 namespace vox {
 
-/// Adds the normals of a surface to the means of its voxels. Every polygon gives its unit normal to
-/// all voxels of the mask that it meets (closed cubes). Of quads that is the normal of the smooth
-/// surface at their centroid (DESIGN section 5). A surface that became voxels by its vertices gives
-/// polygons that fit into a voxel; one that became polygons gives these, so its faces are flat.
+/// Adds the normals of a surface to the means of its voxels: of every polygon to all voxels of the
+/// mask that it meets (closed cubes).
+///
+/// A surface that became polygons gives these, with the exact normals of the smooth surface at
+/// their vertices, blended over the triangles: a voxel takes the normal at the point nearest to its
+/// centre. Polygons that were not smoothed are the surface, and flat. A surface that became voxels
+/// by its vertices gives polygons that fit into a voxel, with their own normals, which at centroids
+/// of quads are those of the smooth surface (DESIGN section 5).
 ///
 /// @param base  in index space
 /// @throws LimitError, Cancelled

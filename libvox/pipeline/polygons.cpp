@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -34,7 +35,9 @@ class ScanSink : public PolygonSink {
   ScanSink(SurfaceGrid& grid, Separation separation, const Progress& progress, ScanSinks& all)
       : cache_(grid), separation_(separation), progress_(progress), all_(all) {}
 
-  void polygons(const PolygonMesh& piece) override { faces(piece, 0, piece.faceCount()); }
+  void polygons(const PolygonMesh& piece, std::span<const Vec3d>) override {
+    faces(piece, 0, piece.faceCount());
+  }
 
   void faces(const PolygonMesh& mesh, Index begin, Index end) {
     triangles_.clear();

@@ -39,9 +39,11 @@ class TaskSink : public PolygonSink {
         progress_(progress),
         allVertices_(allVertices) {}
 
-  void polygons(const PolygonMesh& piece) override {
+  bool wantsNormals() const override { return sink_.wantsNormals(); }
+
+  void polygons(const PolygonMesh& piece, std::span<const Vec3d> normals) override {
     progress_.check();
-    sink_.polygons(piece);
+    sink_.polygons(piece, normals);
   }
 
   void tiles(const ArrayTiles& tiles) override {
@@ -74,7 +76,7 @@ class SoupSink : public PolygonSink {
  public:
   TriangleSoup soup;
 
-  void polygons(const PolygonMesh& piece) override {
+  void polygons(const PolygonMesh& piece, std::span<const Vec3d>) override {
     const std::size_t first = soup.points.size();
     if (first + piece.points.size() >= kNone)
       throw LimitError("the triangles have more points than fit in 32 bits");

@@ -51,6 +51,8 @@ class LocalImages {
 
   /// Slots 0 .. ownSlots() - 1 are the corners of the submesh, face by face.
   Index ownSlots() const { return ownSlots_; }
+  /// Of a face of the submesh, its first one.
+  Index firstSlot(Index face) const { return firstSlot_[face]; }
   const Vec3d& image(Index slot) const { return images_[slot]; }
   std::span<const Vec3d> imagesOfFace(Index firstSlot, Index size) const {
     return std::span(images_).subspan(firstSlot, size);

@@ -3,7 +3,6 @@
 #include "libvox/subdivide/local_polygons.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace vox {
@@ -13,39 +12,55 @@ namespace {
 constexpr int kMostLog2OfPiece = 12;
 
 SideRow sideOfNext(const VertexArray& array) {
-  return {array.depth().v, [&array](std::int64_t first, std::span<Vec3d> points) {
-            array.alongV(array.sizeU() - 1, first, points);
+  return {array.depth().v, [&array](std::int64_t first, PointRow& row) {
+            row.setAlongV(array, array.sizeU() - 1, first);
           }};
 }
 SideRow sideOfPrevious(const VertexArray& array) {
-  return {array.depth().u, [&array](std::int64_t first, std::span<Vec3d> points) {
-            array.alongU(array.sizeV() - 1, first, points);
+  return {array.depth().u, [&array](std::int64_t first, PointRow& row) {
+            row.setAlongU(array, array.sizeV() - 1, first);
           }};
 }
 SideRow sideOfR(const VertexArray& array) {
-  return {array.depth().u, [&array](std::int64_t first, std::span<Vec3d> points) {
-            array.alongU(0, first, points);
-          }};
+  return {array.depth().u,
+          [&array](std::int64_t first, PointRow& row) { row.setAlongU(array, 0, first); }};
 }
 SideRow sideOfL(const VertexArray& array) {
-  return {array.depth().v, [&array](std::int64_t first, std::span<Vec3d> points) {
-            array.alongV(0, first, points);
-          }};
+  return {array.depth().v,
+          [&array](std::int64_t first, PointRow& row) { row.setAlongV(array, 0, first); }};
 }
 
 Vec3d onCurve(const CurvePoints& curve, std::int64_t j, std::int64_t n) {
   return PatchWeights(j, n)(curve[0], curve[1], curve[2]);
 }
 
-/// Points of a boundary, in its direction or against it.
-SideRow boundaryRow(const CurvePoints& curve, int log2Size, bool forward) {
-  return {log2Size, [curve, log2Size, forward](std::int64_t first, std::span<Vec3d> points) {
-            const std::int64_t n = std::int64_t{1} << log2Size;
-            for (Vec3d& point : points) {
-              point = onCurve(curve, forward ? first : n - 1 - first, n);
-              ++first;
-            }
-          }};
+/// Boundary points across R from the vertices (i, 0) of an array, i = first, first + 1, ...
+void setPointsAcrossR(const VertexArray& array, const CurvePoints& curve, std::int64_t first,
+                      PointRow& row) {
+  if (row.hasNormals) array.normalsAcrossR(first, row.normals);
+  for (Vec3d& point : row.points) point = onCurve(curve, first++, array.sizeU());
+}
+
+/// Across L from (0, j), against the direction of the boundary.
+void setPointsAcrossL(const VertexArray& array, const CurvePoints& curve, std::int64_t first,
+                      PointRow& row) {
+  if (row.hasNormals) array.normalsAcrossL(first, row.normals);
+  for (Vec3d& point : row.points)
+    point = onCurve(curve, array.sizeV() - 1 - first++, array.sizeV());
+}
+
+void addPointAcrossR(const VertexArray& array, const CurvePoints& curve, std::int64_t i,
+                     PointRow& row) {
+  PointRow point = row.ofSize(1);
+  setPointsAcrossR(array, curve, i, point);
+  row.add(point);
+}
+
+void addPointAcrossL(const VertexArray& array, const CurvePoints& curve, std::int64_t j,
+                     PointRow& row) {
+  PointRow point = row.ofSize(1);
+  setPointsAcrossL(array, curve, j, point);
+  row.add(point);
 }
 
 }  // namespace
@@ -74,7 +89,11 @@ void LocalPolygons::findDepths(std::span<const Index> faces, const DepthRule& ru
 
 void LocalPolygons::emit(std::span<const Index> faces, std::span<const VertexDepth> depths,
                          const DepthRule* rule, PolygonSink& sink) {
-  vertices_.set(faces);
+  polygon_.hasNormals = row_.hasNormals = sink.wantsNormals();
+  if (sink.wantsNormals())
+    vertices_.setWithNeighbours(faces);
+  else
+    vertices_.set(faces);
   rule_ = rule;
   depths_ = depths;
   const PolygonMesh& mesh = vertices_.images().base().mesh;
@@ -89,8 +108,36 @@ void LocalPolygons::emit(std::span<const Index> faces, std::span<const VertexDep
 
 void LocalPolygons::setArray(const Corner& corner, VertexArray& array, bool& whole) {
   const LevelOneVertex vertex = vertices_.at(corner);
-  array.set(vertex, depths_[corner.number]);
+  array.set(vertex, depths_[corner.number], row_.hasNormals);
   whole = vertex.whole();
+}
+
+// Vertices beyond the submesh: without normals, as far as their points are wanted.
+
+/// Of the corner across the edge of another, at its vertex.
+void LocalPolygons::setAcrossR(const Corner& corner, Index beyond) {
+  if (row_.hasNormals)
+    other_.set(vertices_.at(vertices_.cornerOf(beyond)), depths_[beyond], true);
+  else
+    other_.set(vertices_.acrossR(corner), depths_[beyond]);
+}
+
+/// Of its twin.
+void LocalPolygons::setAcrossRFromNext(const Corner& corner, Index twin) {
+  if (row_.hasNormals)
+    otherFar_.set(vertices_.at(vertices_.cornerOf(twin)), depths_[twin], true);
+  else
+    otherFar_.set(vertices_.acrossRFromNext(corner), depths_[twin]);
+}
+
+/// Of a corner of a star.
+void LocalPolygons::setInStar(Index number, Index place, Index corner) {
+  const SubdivisionLevel& base = vertices_.images().base();
+  const bool quad = base.mesh.faceSize(base.adjacency.cornerFace[corner]) == 4;
+  if (row_.hasNormals)
+    other_.set(vertices_.at(vertices_.cornerOf(corner)), depths_[corner], true);
+  else
+    other_.set(vertices_.inStar(number, place, quad), depths_[corner]);
 }
 
 void LocalPolygons::emitFace(const Corner& first, PolygonPieces& pieces, PolygonSink& sink) {
@@ -101,7 +148,7 @@ void LocalPolygons::emitFace(const Corner& first, PolygonPieces& pieces, Polygon
   for (Index i = 0; i < first.size; ++i, c = c.next()) {
     std::swap(here_, next_);
     emitArray(here_, whole, pieces, sink);
-    polygon_.push_back(here_.cornerF());
+    polygon_.addCornerF(here_);
     setArray(c.next(), next_, whole);
     const bool interior = !vertices_.isBoundary(c);
     if (interior || vertices_.images().extends())
@@ -131,10 +178,10 @@ void LocalPolygons::emitGrid(const VertexArray& array, PolygonPieces& pieces, Po
     return;
   }
   const auto width = static_cast<Index>(array.sizeV());
-  star_.resize(width);
+  row_.resize(width);
   for (std::int64_t i = 0; i < array.sizeU(); ++i) {
-    array.alongV(i, 0, star_);
-    const Index here = pieces.addPoints(star_);
+    row_.setAlongV(array, i, 0);
+    const Index here = pieces.addPoints(row_);
     if (i == 0) continue;
     for (Index j = 0; j + 1 < width; ++j)
       pieces.addFace({here - width + j, here + j, here + j + 1, here - width + j + 1});
@@ -175,13 +222,13 @@ bool LocalPolygons::emitBlocks(const VertexArray& array, PolygonPieces& pieces, 
 void LocalPolygons::emitRim(const VertexArray& array, const VertexArray::Block& block,
                             PolygonPieces& pieces) {
   const auto alongV = [&](std::int64_t i) {
-    return SideRow{block.depth.v, [&array, &block, i](std::int64_t first, std::span<Vec3d> points) {
-                     array.alongV(i, block.v + first, points);
+    return SideRow{block.depth.v, [&array, &block, i](std::int64_t first, PointRow& row) {
+                     row.setAlongV(array, i, block.v + first);
                    }};
   };
   const auto alongU = [&](std::int64_t j) {
-    return SideRow{block.depth.u, [&array, &block, j](std::int64_t first, std::span<Vec3d> points) {
-                     array.alongU(j, block.u + first, points);
+    return SideRow{block.depth.u, [&array, &block, j](std::int64_t first, PointRow& row) {
+                     row.setAlongU(array, j, block.u + first);
                    }};
   };
   stitch(alongV(block.u), sideOfL(inner_), pieces);
@@ -197,11 +244,11 @@ void LocalPolygons::emitSeams(const VertexArray& array, const VertexArray::Block
   const auto addQuads = [&](std::int64_t faces, const auto& before, const auto& after) {
     for (std::int64_t first = 0; first < faces; first += kFaces) {
       const std::int64_t count = std::min(kFaces, faces - first);
-      star_.resize(static_cast<std::size_t>(count + 1));
-      before(first, star_);
-      const Index a = pieces.addPoints(star_);
-      after(first, star_);
-      const Index b = pieces.addPoints(star_);
+      row_.resize(static_cast<std::size_t>(count + 1));
+      before(first);
+      const Index a = pieces.addPoints(row_);
+      after(first);
+      const Index b = pieces.addPoints(row_);
       for (Index j = 0; j < count; ++j) pieces.addFace({a + j, b + j, b + j + 1, a + j + 1});
       pieces.breathe();
     }
@@ -209,19 +256,13 @@ void LocalPolygons::emitSeams(const VertexArray& array, const VertexArray::Block
   if (block.endU() < array.sizeU())
     addQuads(
         std::min(block.endV(), array.sizeV() - 1) - block.v,
-        [&](std::int64_t j, std::span<Vec3d> row) {
-          array.alongV(block.endU() - 1, block.v + j, row);
-        },
-        [&](std::int64_t j, std::span<Vec3d> row) {
-          array.alongV(block.endU(), block.v + j, row);
-        });
+        [&](std::int64_t j) { row_.setAlongV(array, block.endU() - 1, block.v + j); },
+        [&](std::int64_t j) { row_.setAlongV(array, block.endU(), block.v + j); });
   if (block.endV() < array.sizeV())
     addQuads(
         block.endU() - 1 - block.u,
-        [&](std::int64_t i, std::span<Vec3d> row) { array.alongU(block.endV(), block.u + i, row); },
-        [&](std::int64_t i, std::span<Vec3d> row) {
-          array.alongU(block.endV() - 1, block.u + i, row);
-        });
+        [&](std::int64_t i) { row_.setAlongU(array, block.endV(), block.u + i); },
+        [&](std::int64_t i) { row_.setAlongU(array, block.endV() - 1, block.u + i); });
 }
 
 /// What a corner owns across its edge: the strip to the corner beyond, at the same vertex, and for
@@ -233,12 +274,16 @@ void LocalPolygons::emitEdge(const Corner& c, const VertexArray& here, const Ver
   const Index beyond = nextCorner(base.mesh, base.adjacency, twin);
   const bool strip = vertices_.hasK(c.slot());
   if (!strip && twin < c.number) return;
-  other_.set(vertices_.acrossR(c), depths_[beyond]);
+  setAcrossR(c, beyond);
   if (strip) stitch(sideOfR(here), sideOfL(other_), pieces);
   if (twin < c.number) return;
-  otherFar_.set(vertices_.acrossRFromNext(c), depths_[twin]);
-  pieces.addPolygon(
-      std::array<Vec3d, 4>{next.cornerL(), here.cornerR(), other_.cornerL(), otherFar_.cornerR()});
+  setAcrossRFromNext(c, twin);
+  row_.clear();
+  row_.addCornerL(next);
+  row_.addCornerR(here);
+  row_.addCornerL(other_);
+  row_.addCornerR(otherFar_);
+  pieces.addPolygon(row_);
 }
 
 /// The strips to the boundary points of a boundary edge, and the half E-face between them.
@@ -246,11 +291,19 @@ void LocalPolygons::emitBoundaryEdge(const Corner& c, const VertexArray& here,
                                      const VertexArray& next, PolygonPieces& pieces) {
   const CurvePoints start = vertices_.curveAcrossR(c);
   const CurvePoints end = vertices_.curveAcrossL(c.next());
-  stitch(sideOfR(here), boundaryRow(start, here.depth().u, true), pieces);
-  stitch(boundaryRow(end, next.depth().v, false), sideOfL(next), pieces);
-  pieces.addPolygon(std::array<Vec3d, 4>{next.cornerL(), here.cornerR(),
-                                         onCurve(start, here.sizeU() - 1, here.sizeU()),
-                                         onCurve(end, 0, next.sizeV())});
+  stitch(sideOfR(here),
+         {here.depth().u,
+          [&](std::int64_t first, PointRow& row) { setPointsAcrossR(here, start, first, row); }},
+         pieces);
+  stitch({next.depth().v,
+          [&](std::int64_t first, PointRow& row) { setPointsAcrossL(next, end, first, row); }},
+         sideOfL(next), pieces);
+  row_.clear();
+  row_.addCornerL(next);
+  row_.addCornerR(here);
+  addPointAcrossR(here, start, here.sizeU() - 1, row_);
+  addPointAcrossL(next, end, next.sizeV() - 1, row_);
+  pieces.addPolygon(row_);
 }
 
 /// The V-face of a fan, or the half V-face, given the fan's first corner.
@@ -258,24 +311,21 @@ void LocalPolygons::emitStar(const Corner& c, PolygonPieces& pieces) {
   const SubdivisionLevel& base = vertices_.images().base();
   const Index number = vertices_.images().starNumber(c.slot());
   const LocalImages::Star& star = vertices_.images().stars()[number];
-  star_.clear();
+  row_.clear();
+  PointRow atStart = row_.ofSize(0);
   Index corner = c.number;
-  Index last = corner;
   for (Index place = 0; place < star.fan; ++place) {
-    const bool quad = base.mesh.faceSize(base.adjacency.cornerFace[corner]) == 4;
-    other_.set(vertices_.inStar(number, place, quad), depths_[corner]);
-    star_.push_back(other_.cornerK());
-    last = corner;
+    setInStar(number, place, corner);
+    row_.addCornerK(other_);
+    const Vec3d& unknown = star.mEnd;
+    if (!star.closed && place == 0)
+      addPointAcrossR(other_, {star.mEnd, star.mStart, unknown}, 0, atStart);
+    if (!star.closed && place + 1 == star.fan)
+      addPointAcrossL(other_, {unknown, star.mEnd, star.mStart}, 0, row_);
     corner = nextAroundVertex(base.mesh, base.adjacency, corner);
   }
-  if (!star.closed) {
-    const Vec3d& unknown = star.mEnd;
-    const std::int64_t startSize = std::int64_t{1} << depths_[c.number].u;
-    const std::int64_t endSize = std::int64_t{1} << depths_[last].v;
-    star_.push_back(onCurve({unknown, star.mEnd, star.mStart}, endSize - 1, endSize));
-    star_.push_back(onCurve({star.mEnd, star.mStart, unknown}, 0, startSize));
-  }
-  pieces.addPolygon(star_);
+  row_.add(atStart);
+  pieces.addPolygon(row_);
 }
 
 std::vector<std::uint8_t> regularCorners(const SubdivisionLevel& base) {

@@ -32,7 +32,8 @@ class LocalPolygons {
   void findDepths(std::span<const Index> faces, const DepthRule& rule,
                   std::span<VertexDepth> depths);
 
-  /// Gives the sink the polygons that these faces own.
+  /// Gives the sink the polygons that these faces own. Normals, where the sink wants them, cost a
+  /// look at the faces beyond: all around a vertex then is known, on either side of an edge.
   /// @param depths  one per corner of the base mesh; of irregular vertices u = v
   /// @param rule    where given, parts of the arrays of irregular vertices that need fewer vertices
   ///   by it, along u or v or both, get them: all but their outermost rows
@@ -54,6 +55,9 @@ class LocalPolygons {
                         PolygonPieces& pieces);
   void emitStar(const Corner& corner, PolygonPieces& pieces);
   void setArray(const Corner& corner, VertexArray& array, bool& whole);
+  void setAcrossR(const Corner& corner, Index beyond);
+  void setAcrossRFromNext(const Corner& corner, Index twin);
+  void setInStar(Index number, Index place, Index corner);
 
   LocalVertices vertices_;
   std::span<const VertexDepth> depths_;
@@ -61,8 +65,8 @@ class LocalPolygons {
   VertexArray here_, next_, other_, otherFar_;
   VertexArray inner_;                // of a block
   std::vector<VertexDepth> within_;  // of the blocks of an array
-  std::vector<Vec3d> polygon_;
-  std::vector<Vec3d> star_;
+  PointRow polygon_;
+  PointRow row_;
 };
 
 /// Whether the level-1 vertex of each corner of a mesh is regular: of others, depths must be the

@@ -5,7 +5,61 @@
 #include <algorithm>
 
 namespace vox {
+
 void LocalVertices::set(std::span<const Index> faces) {
+  keepsRings_ = false;
+  load(faces);
+}
+
+void LocalVertices::setWithNeighbours(std::span<const Index> faces) {
+  const SubdivisionLevel& base = images_.base();
+  isLoaded_.resize(base.mesh.faceCount());
+  isVisited_.resize(base.mesh.pointCount());
+  std::swap(loaded_, loadedBefore_);  // images_ looks at the list before until it has another
+  loaded_.clear();
+  for (const Index f : faces) addNeighbour(f);
+  for (const Index f : faces)
+    for (Index c = base.mesh.faceOffsets[f]; c < base.mesh.faceOffsets[f + 1]; ++c)
+      if (const Index twin = base.adjacency.twin[c]; twin != kNone)
+        addNeighbour(base.adjacency.cornerFace[twin]);
+  addFansFrom(faces);
+  for (const Index f : loaded_) isLoaded_[f] = false;
+
+  keepsRings_ = true;
+  load(loaded_);
+  ringsAt_.assign(images_.ownSlots(), kNone);
+  opened_ = 0;
+}
+
+void LocalVertices::addNeighbour(Index face) {
+  if (isLoaded_[face]) return;
+  isLoaded_[face] = true;
+  loaded_.push_back(face);
+}
+
+/// All faces of the fans that begin, as in LocalImages, in one of these.
+void LocalVertices::addFansFrom(std::span<const Index> faces) {
+  constexpr std::uint8_t kOwn = 2;
+  const SubdivisionLevel& base = images_.base();
+  for (const Index f : faces) isLoaded_[f] = kOwn;
+  const auto forCorners = [&](auto&& visit) {
+    for (const Index f : faces)
+      for (Index c = base.mesh.faceOffsets[f]; c < base.mesh.faceOffsets[f + 1]; ++c) visit(c);
+  };
+  forCorners([&](Index c) {
+    std::uint8_t& visited = isVisited_[base.mesh.faceVertices[c]];
+    if (visited) return;
+    visited = true;
+    const OneRing ring = oneRing(base.mesh, base.adjacency, c);
+    const Index first = ring.closed ? *std::min_element(ring.corners.begin(), ring.corners.end())
+                                    : ring.corners.front();
+    if (isLoaded_[base.adjacency.cornerFace[first]] != kOwn) return;
+    for (const Index corner : ring.corners) addNeighbour(base.adjacency.cornerFace[corner]);
+  });
+  forCorners([&](Index c) { isVisited_[base.mesh.faceVertices[c]] = false; });
+}
+
+void LocalVertices::load(std::span<const Index> faces) {
   images_.set(faces);
   openFace_ = shapedFace_ = kNone;
   second_.resize(images_.ownSlots());
@@ -111,9 +165,21 @@ void LocalVertices::splitK(const LocalImages::Star& star, Index number, Index pl
 }
 
 /// The rings of a face that is no quad.
-void LocalVertices::openFace(const Corner& at) {
-  if (openFace_ == at.first) return;
-  openFace_ = at.first;
+ExtraordinaryRings& LocalVertices::ringsOf(const Corner& at) {
+  if (!keepsRings_) {
+    if (openFace_ != at.first) openFace(at, faceRings_.front());
+    openFace_ = at.first;
+    return faceRings_.front();
+  }
+  Index& number = ringsAt_[at.first];
+  if (number != kNone) return faceRings_[number];
+  number = static_cast<Index>(opened_++);
+  if (faceRings_.size() < opened_) faceRings_.emplace_back();
+  openFace(at, faceRings_[number]);
+  return faceRings_[number];
+}
+
+void LocalVertices::openFace(const Corner& at, ExtraordinaryRings& rings) {
   ExtraordinaryFace face;
   face.reset(at.size);
   Corner c{at.first, 0, at.size, at.number - at.place};
@@ -133,7 +199,7 @@ void LocalVertices::openFace(const Corner& at) {
                            ? TriangleImages(images_.image(c.slot()), star.mStart, star.mEnd).u
                            : starSecond_[star.begin + images_.placeInStar(c.slot())];
   }
-  faceRings_.start(std::move(face));
+  rings.start(std::move(face));
 }
 
 LevelOneVertex LocalVertices::at(const Corner& c) {
@@ -160,8 +226,7 @@ LevelOneVertex LocalVertices::at(const Corner& c) {
   if (vertex.quadF) {
     split.fOpposite = second_[c.first + (c.place ^ 2U)];
   } else {
-    openFace(c);
-    vertex.ringsOfF = &faceRings_;
+    vertex.ringsOfF = &ringsOf(c);
     vertex.placeInF = c.place;
   }
   return vertex;

@@ -4,6 +4,7 @@
 #include "libvox/subdivide/local_images.h"
 #include "libvox/subdivide/vertex_array.h"
 
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,10 @@ class LocalVertices {
 
   /// Replaces the submesh. Cost: that of LocalImages.
   void set(std::span<const Index> faces);
+  /// The same with faces beyond it after those of the submesh, so that corners can be asked for
+  /// across its edges, and all around vertices whose fan begins in it. What a vertex refers to is
+  /// valid until the next submesh.
+  void setWithNeighbours(std::span<const Index> faces);
 
   const LocalImages& images() const { return images_; }
 
@@ -37,6 +42,13 @@ class LocalVertices {
                         : Corner{first, place - 1, size, number - 1};
     }
   };
+
+  /// A corner of a loaded face.
+  Corner cornerOf(Index number) const {
+    const SubdivisionLevel& base = images_.base();
+    const Index f = base.adjacency.cornerFace[number];
+    return {images_.firstSlot(f), number - base.mesh.faceOffsets[f], base.mesh.faceSize(f), number};
+  }
 
   /// A vertex of the submesh. What it refers to is valid until a corner of another face is asked
   /// for.
@@ -61,13 +73,17 @@ class LocalVertices {
   }
 
  private:
+  void load(std::span<const Index> faces);
+  void addFansFrom(std::span<const Index> faces);
+  void addNeighbour(Index face);
   void prepareStars();
   Index sizeOfK(const LocalImages::Star& star) const {
     return star.closed || images_.extends() ? star.size : 4;
   }
   Patch patchAt(const Corner& corner) const;
   void splitK(const LocalImages::Star& star, Index number, Index place, LevelOneVertex& vertex);
-  void openFace(const Corner& corner);
+  ExtraordinaryRings& ringsOf(const Corner& corner);
+  void openFace(const Corner& corner, ExtraordinaryRings& rings);
   void shapeStar(Index number);
 
   LocalImages images_;
@@ -77,10 +93,18 @@ class LocalVertices {
   std::vector<ExtraordinaryRings> starRings_;
   std::vector<FaceShape> starShapes_;
   std::vector<std::uint8_t> starShaped_;
-  ExtraordinaryRings faceRings_;
-  Index openFace_ = kNone;  // first slot of the face of faceRings_
+  // Of faces that are no quads: of one at a time, or with neighbours of all that were asked for.
+  std::deque<ExtraordinaryRings> faceRings_ = std::deque<ExtraordinaryRings>(1);
+  Index openFace_ = kNone;      // first slot of the face of the first of these
+  bool keepsRings_ = false;     // of all
+  std::vector<Index> ringsAt_;  // by first slot
+  std::size_t opened_ = 0;
   FaceShape faceShape_;
   Index shapedFace_ = kNone;
+  // With neighbours:
+  std::vector<Index> loaded_, loadedBefore_;
+  std::vector<std::uint8_t> isLoaded_;   // per face of the base
+  std::vector<std::uint8_t> isVisited_;  // per vertex
 };
 
 }  // namespace vox

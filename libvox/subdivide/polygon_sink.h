@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace vox {
 
@@ -37,27 +38,74 @@ class ArrayTiles {
 class PolygonSink {
  public:
   virtual ~PolygonSink() = default;
+  /// Whether points come with normals.
+  virtual bool wantsNormals() const { return false; }
   /// Some polygons, counter-clockwise from outside, with the points they use: at most some ten
   /// thousand, but for a single polygon of more corners. Where pieces meet, their points have the
-  /// same bits. Valid during the call. (Whatever more a point is to have, such as a normal, goes
-  /// beside the points.)
-  virtual void polygons(const PolygonMesh& piece) = 0;
+  /// same bits, and so have their normals. Valid during the call.
+  /// @param normals  if wanted: one per point, of the smooth surface where the vertex comes to lie
+  ///   on it; unit, outward, or 0 where there is none
+  virtual void polygons(const PolygonMesh& piece, std::span<const Vec3d> normals) = 0;
   /// The faces within a large array; by default its tiles follow one another.
   virtual void tiles(const ArrayTiles& tiles);
+};
+
+/// Points that follow one another, with normals where these are wanted.
+struct PointRow {
+  explicit PointRow(bool withNormals = false) : hasNormals(withNormals) {}
+
+  bool hasNormals;
+  std::vector<Vec3d> points;
+  std::vector<Vec3d> normals;  ///< as many, or none
+
+  void clear() { resize(0); }
+  void resize(std::size_t size) {
+    points.resize(size);
+    if (hasNormals) normals.resize(size);
+  }
+  /// Another one of that size.
+  PointRow ofSize(std::size_t size) const {
+    PointRow row(hasNormals);
+    row.resize(size);
+    return row;
+  }
+  /// Vertices of an array, as many as the row has points.
+  void setAlongV(const VertexArray& array, std::int64_t i, std::int64_t first) {
+    array.alongV(i, first, points);
+    if (hasNormals) array.normalsAlongV(i, first, normals);
+  }
+  void setAlongU(const VertexArray& array, std::int64_t j, std::int64_t first) {
+    array.alongU(j, first, points);
+    if (hasNormals) array.normalsAlongU(j, first, normals);
+  }
+  /// One more.
+  void add(const VertexArray& array, std::int64_t i, std::int64_t j) {
+    points.push_back(array.at(i, j));
+    if (hasNormals) normals.push_back(array.normalAt(i, j));
+  }
+  void add(const PointRow& row) {
+    points.insert(points.end(), row.points.begin(), row.points.end());
+    normals.insert(normals.end(), row.normals.begin(), row.normals.end());
+  }
+  void addCornerF(const VertexArray& array) { add(array, array.sizeU() - 1, array.sizeV() - 1); }
+  void addCornerK(const VertexArray& array) { add(array, 0, 0); }
+  void addCornerR(const VertexArray& array) { add(array, array.sizeU() - 1, 0); }
+  void addCornerL(const VertexArray& array) { add(array, 0, array.sizeV() - 1); }
 };
 
 /// Collects faces into pieces.
 class PolygonPieces {
  public:
-  explicit PolygonPieces(PolygonSink& sink) : sink_(sink) {}
+  explicit PolygonPieces(PolygonSink& sink) : sink_(sink), wantsNormals_(sink.wantsNormals()) {}
 
+  bool wantsNormals() const { return wantsNormals_; }
   /// Faces of points that come next: numbers count from the first of them.
-  Index addPoints(std::span<const Vec3d> points);
+  Index addPoints(const PointRow& row);
   void addFace(std::initializer_list<Index> corners) {
     piece_.addFace({corners.begin(), corners.size()});
   }
   /// One face of its own points.
-  void addPolygon(std::span<const Vec3d> points);
+  void addPolygon(const PointRow& row);
   /// Between pieces of work that share no points: passes on what has become much.
   void breathe() {
     if (piece_.points.size() >= kPoints) flush();
@@ -68,13 +116,15 @@ class PolygonPieces {
   static constexpr std::size_t kPoints = 4096;
 
   PolygonSink& sink_;
+  bool wantsNormals_;
   PolygonMesh piece_;
+  std::vector<Vec3d> normals_;
 };
 
 /// A row of 2^size points along the side of a vertex, or along a boundary.
 struct SideRow {
   int log2Size = 0;
-  std::function<void(std::int64_t first, std::span<Vec3d> points)> points;
+  std::function<void(std::int64_t first, PointRow& row)> set;  ///< as many as the row has points
 };
 
 /// Faces between two rows that face each other. Seen from outside, with both running upwards, A

@@ -1,0 +1,84 @@
+// Normals at the vertices of vertex conversion.
+
+#include "libvox/pipeline/vertex_normals.h"
+
+#include "libvox/core/parallel.h"
+#include "libvox/localize/partition.h"
+#include "libvox/pipeline/surface.h"
+#include "libvox/subdivide/depth_rule.h"
+#include "libvox/subdivide/local_vertices.h"
+#include "libvox/subdivide/stop.h"
+#include "libvox/voxelize/normal_sampler.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace vox {
+namespace {
+
+/// One thread's part of normals at vertices.
+struct VertexNormals {
+  LocalVertices vertices;
+  VertexArray array;
+  explicit VertexNormals(const SubdivisionLevel& base) : vertices(base) {}
+};
+using Samplers = tbb::enumerable_thread_specific<NormalSampler>;
+
+/// Patches of more levels are shared among threads.
+constexpr int kMostLevelsOfTask = 8;
+
+void samplePatch(const Patch& patch, int rows, int columns, Samplers& samplers) {
+  if (std::max(rows, columns) <= kMostLevelsOfTask)
+    return samplers.local().patch(patch, rows, columns);
+  const bool turn = rows < columns;
+  const auto halves = halvesAlongU(turn ? quarterTurn(patch) : patch);
+  forEach(halves.size(), 1, [&](std::size_t half) {
+    samplePatch(halves[half], std::max(rows, columns) - 1, std::min(rows, columns), samplers);
+  });
+}
+
+void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
+                  VertexNormals& normals, Samplers& samplers) {
+  const LevelOneVertex vertex = normals.vertices.at(corner);
+  // As many vertices of a patch as blacken voxels: with fewer, voxels would be left out.
+  const auto sample = [&](const Patch& partial) {
+    const Patch patch = continued(partial);
+    const PatchDepth depth = patchDepth(patch);
+    samplePatch(patch, depth.alongU, depth.alongV, samplers);
+  };
+  if (vertex.regular) return sample(vertex.patch);
+  const VertexFaces faces = normals.vertices.facesAt(corner);
+  if (!vertex.whole()) return samplers.local().point(vertex.at, faces.f.normal);
+  normals.array.set(vertex, rule.of(vertex, &faces, {}), true);
+  for (const VertexArray::Block& block : normals.array.blocks()) sample(block.patch);
+}
+
+}  // namespace
+
+void addNormalsOfVertices(const SubdivisionLevel& base, Progress& progress, VoxelMeans& means) {
+  const DepthRule rule(StopRule{.diameter = 1});
+  const Partition partition = coverGreedily(base.mesh, base.adjacency, kDefaultSubmeshFaces);
+  Samplers samplers([&] { return NormalSampler(means); });
+  tbb::enumerable_thread_specific<VertexNormals> threads([&] { return VertexNormals(base); });
+  forEach(partition.size(), 1, [&](Index s) {
+    progress.check();
+    // Isolated: a thread that waits for parts of a patch must not begin another submesh.
+    tbb::this_task_arena::isolate([&] {
+      VertexNormals& normals = threads.local();
+      const auto faces = partition.submesh(s);
+      normals.vertices.set(faces);
+      Index slot = 0;
+      for (const Index f : faces) {
+        const Index size = base.mesh.faceSize(f);
+        LocalVertices::Corner c{slot, 0, size, base.mesh.faceOffsets[f]};
+        for (Index i = 0; i < size; ++i, c = c.next()) sampleVertex(c, rule, normals, samplers);
+        slot += size;
+      }
+    });
+    progress.done(1.0 / static_cast<double>(partition.size()));
+  });
+}
+
+}  // namespace vox
