@@ -62,6 +62,7 @@ class LocalVertices {
 
  private:
   void prepareStars();
+  void surroundStars(std::vector<ExtraordinaryFace>& faces) const;
   Index sizeOfK(const LocalImages::Star& star) const {
     return star.closed || images_.extends() ? star.size : 4;
   }
