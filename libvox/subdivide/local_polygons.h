@@ -65,8 +65,4 @@ class LocalPolygons {
   std::vector<Vec3d> star_;
 };
 
-/// Whether the level-1 vertex of each corner of a mesh is regular: of others, depths must be the
-/// same along u and v.
-std::vector<std::uint8_t> regularCorners(const SubdivisionLevel& base);
-
 }  // namespace vox
