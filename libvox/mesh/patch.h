@@ -2,7 +2,6 @@
 
 #include "libvox/core/types.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
