@@ -2,6 +2,7 @@
 
 #include "libvox/core/types.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
