@@ -86,7 +86,7 @@ TEST_CASE("a framed model fills the picture up to its margin, in the middle",
   const Projection projection = GENERATE(Projection::kOrthographic, Projection::kPerspective);
   const double aspect = GENERATE(0.5, 1.0, 3.0);
   const View view = GENERATE(View{0, 0}, View{77, 20}, View{200, -90});
-  CAPTURE(projectionName(projection), aspect, view.azimuth);
+  CAPTURE(nameIn(kProjectionNames, projection), aspect, view.azimuth);
   Framing framing(view, UpAxis::kZ, projection, aspect);
   for (const Vec3d& point : cloud()) framing.add(point);
   const Camera camera = framing.camera();

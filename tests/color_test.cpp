@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 #include <openvdb/openvdb.h>
 
-#include <algorithm>
 #include <sstream>
 
 using namespace vox;

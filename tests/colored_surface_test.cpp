@@ -82,7 +82,7 @@ TEST_CASE("colours that follow the place still do on the smooth surface", "[colo
         CAPTURE(shape.name, boundary, until);
         ConvertOptions options;
         options.until = stopRuleNamed(until);
-        options.smoothing.boundary = boundaryRuleNamed(boundary);
+        options.smoothing.boundary = namedIn(kBoundaryRuleNames, boundary);
         const Conversion conversion = convertColor(coloredByPlace(shape.mesh), options, kDim);
         const Vec3d low = usedBox(shape.mesh).low / conversion.report.voxelSize;
         double furthest = 0;

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
-#include <random>
 #include <sstream>
 #include <string>
 #include <vector>

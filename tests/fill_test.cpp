@@ -7,9 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <bit>
 #include <random>
-#include <set>
 #include <vector>
 
 using namespace vox;

@@ -130,7 +130,7 @@ TEST_CASE("the surface passes through the vertices asked for, in every combinati
   for (const auto& shape : allShapes())
     for (const Interpolate which : {Interpolate::kNothing, Interpolate::kInterior,
                                     Interpolate::kBoundary, Interpolate::kBoth}) {
-      CAPTURE(shape.name, interpolateName(which));
+      CAPTURE(shape.name, nameIn(kInterpolateNames, which));
       SubdivisionLevel level = baseLevel(shape.mesh);
       InterpolationReport report;
       level.mesh = interpolate(level.mesh, level.adjacency, which, {}, report);

@@ -66,6 +66,20 @@ std::vector<VertexDepth> uniform(const SubdivisionLevel& base, int k) {
   return {base.mesh.cornerCount(), VertexDepth{depth, depth}};
 }
 
+/// Whether the level-1 vertex of each corner is regular: of others, depths must be the same along u
+/// and v.
+std::vector<std::uint8_t> regularCorners(const SubdivisionLevel& base) {
+  const Index corners = base.mesh.cornerCount();
+  std::vector<std::uint8_t> regular(corners);
+  for (Index c = 0; c < corners; ++c) {
+    if (base.mesh.faceSize(base.adjacency.cornerFace[c]) != 4) continue;
+    const OneRing ring = oneRing(base.mesh, base.adjacency, c);
+    const std::size_t half = base.boundary == BoundaryStage::kExtend ? 2 : ring.corners.size();
+    regular[c] = ring.corners.size() == (ring.closed ? 4 : half);
+  }
+  return regular;
+}
+
 /// Deep and shallow beside each other; of regular vertices along u and v apart.
 std::vector<VertexDepth> randomDepths(const SubdivisionLevel& base, int most, std::uint32_t seed) {
   std::mt19937 random(seed);

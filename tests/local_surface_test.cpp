@@ -8,10 +8,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <map>
-#include <numeric>
-#include <tuple>
 
 using namespace vox;
 

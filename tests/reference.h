@@ -4,8 +4,6 @@
 
 #include <openvdb/openvdb.h>
 
-#include <vector>
-
 /// Slow, obvious second implementations to hold the library against.
 namespace vox::test {
 

@@ -95,7 +95,7 @@ TEST_CASE("a sphere covers the area of its disc, a ball of voxels that of its co
 
 TEST_CASE("the lamp shines from the upper left", "[inspect]") {
   for (const Shading shading : {Shading::kCongradient, Shading::kNormals}) {
-    CAPTURE(shadingName(shading));
+    CAPTURE(nameIn(kShadingNames, shading));
     RenderOptions options = small();
     options.shading.shading = shading;
     VisibleGrids visible = ball();

@@ -10,10 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <numeric>
 #include <random>
-#include <set>
 
 using namespace vox;
 using test::Corners;

@@ -107,12 +107,12 @@ ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const Options& optio
     const std::string key = word.substr(0, equals);
     const std::string value = word.substr(equals + 1);
     if (key == "boundary" && !made.smoothing.boundary)
-      made.smoothing.boundary = boundaryRuleNamed(value);
+      made.smoothing.boundary = namedIn(kBoundaryRuleNames, value);
     if (key == "interpolate" && !made.smoothing.interpolate)
-      made.smoothing.interpolate = interpolateNamed(value);
+      made.smoothing.interpolate = namedIn(kInterpolateNames, value);
     if (key == "weld" && !made.weldTolerance) made.weldTolerance = std::stod(value);
     if (key == "until" && !made.until) made.until = stopRuleNamed(value);
-    if (key == "voxelize") made.voxelize = voxelizeNamed(value);
+    if (key == "voxelize") made.voxelize = namedIn(kVoxelizeNames, value);
     if (key == "target") made.volume.target = namedIn(kTargetNames, value);
     if (key == "up") made.volume.up = namedIn(kUpAxisNames, value);
     if (key == "interpolated-vertices" && !made.smoothing.interpolatedVertices)

@@ -21,7 +21,6 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -90,9 +89,9 @@ void printEstimate(const Options& options, const Scene& scene,
   if (made.voxels > 0) std::cout << ", " << about(made.voxels) << " voxels of the surface";
   std::cout << '\n';
   for (const GridEstimate& grid : made.grids)
-    std::cout << "grid " << gridName(grid.kind) << ": " << about(grid.voxels) << " voxels in "
-              << about(grid.leaves) << " leaves, " << bytes(grid.bytes) << " in memory, "
-              << bytes(grid.fileBytes) << " in the file\n";
+    std::cout << "grid " << nameIn(kGridNames, grid.kind) << ": " << about(grid.voxels)
+              << " voxels in " << about(grid.leaves) << " leaves, " << bytes(grid.bytes)
+              << " in memory, " << bytes(grid.fileBytes) << " in the file\n";
   std::cout << "in all: about " << bytes(made.bytes) << " of memory for grids, "
             << bytes(made.fileBytes) << " in the file\n";
 }
@@ -207,9 +206,9 @@ Action addConvert(CLI::App& app) {
   addWeldOption(*command, options->conversion.weldTolerance);
   addStrictOption(*command, options->conversion.strict);
   command
-      ->add_option(
-          "--grids", options->grids,
-          "Grids to write, with commas: " + allGridNames() + " (default: the scene's, or density)")
+      ->add_option("--grids", options->grids,
+                   "Grids to write, with commas: " + allNamesIn(kGridNames) +
+                       " (default: the scene's, or density)")
       ->type_name("LIST")
       ->group("Output");
   command

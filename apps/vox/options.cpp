@@ -120,18 +120,8 @@ void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments) {
 
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   SmoothingOptions smoothing;
-  if (!arguments.boundary.empty()) {
-    smoothing.boundary = boundaryRuleNamed(arguments.boundary);
-    if (!smoothing.boundary)
-      throw UsageError("--boundary must be one of " + allBoundaryRuleNames() + ", not '" +
-                       arguments.boundary + "'");
-  }
-  if (!arguments.interpolate.empty()) {
-    smoothing.interpolate = interpolateNamed(arguments.interpolate);
-    if (!smoothing.interpolate)
-      throw UsageError("--interpolate must be one of " + allInterpolateNames() + ", not '" +
-                       arguments.interpolate + "'");
-  }
+  smoothing.boundary = parseNamed("--boundary", kBoundaryRuleNames, arguments.boundary);
+  smoothing.interpolate = parseNamed("--interpolate", kInterpolateNames, arguments.interpolate);
   if (!arguments.vertexFile.empty())
     smoothing.interpolatedVertices = readIndices(arguments.vertexFile);
   return smoothing;
@@ -173,15 +163,6 @@ std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments) {
   if (!rule)
     throw UsageError("--until must be one of " + allStopRuleNames() + ", not '" + all + "'");
   return rule;
-}
-
-std::optional<Voxelize> parseVoxelize(const VoxelizationArguments& arguments) {
-  if (arguments.voxelize.empty()) return std::nullopt;
-  const auto voxelize = voxelizeNamed(arguments.voxelize);
-  if (!voxelize)
-    throw UsageError("--voxelize must be one of " + allVoxelizeNames() + ", not '" +
-                     arguments.voxelize + "'");
-  return voxelize;
 }
 
 Separation parseSeparation(const VoxelizationArguments& arguments) {
@@ -324,7 +305,7 @@ ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOp
   parsed.voxelSize = arguments.resolution.voxelSize;
   parsed.smoothing = parseSmoothing(arguments.smoothing);
   parsed.until = parseUntil(arguments.voxelization);
-  parsed.voxelize = parseVoxelize(arguments.voxelization);
+  parsed.voxelize = parseNamed("--voxelize", kVoxelizeNames, arguments.voxelization.voxelize);
   parsed.separation = parseSeparation(arguments.voxelization);
   parsed.weldTolerance = arguments.weldTolerance;
   parsed.strict = arguments.strict;
@@ -338,12 +319,12 @@ std::vector<GridKind> parseGrids(const std::string& names) {
   std::vector<GridKind> grids;
   std::istringstream list(names);
   for (std::string name; std::getline(list, name, ',');) {
-    const auto kind = gridNamed(name);
+    const auto kind = namedIn(kGridNames, name);
     if (!kind)
-      throw UsageError("--grids: unknown grid '" + name + "'; known are " + allGridNames());
+      throw UsageError("--grids: unknown grid '" + name + "'; known are " + allNamesIn(kGridNames));
     if (std::find(grids.begin(), grids.end(), *kind) == grids.end()) grids.push_back(*kind);
   }
-  if (grids.empty()) throw UsageError("--grids names no grid; known are " + allGridNames());
+  if (grids.empty()) throw UsageError("--grids names no grid; known are " + allNamesIn(kGridNames));
   return grids;
 }
 

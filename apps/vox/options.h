@@ -61,7 +61,6 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
 /// What they mean; nothing if not said.
 /// @throws UsageError
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
-std::optional<Voxelize> parseVoxelize(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
 
 /// --fill, --gain, --open-mesh, --band, --tolerance, --half, --compression, --target and --up, as

@@ -18,7 +18,6 @@
 #include <charconv>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -30,10 +29,10 @@ struct Options {
   std::string output;
   std::string views = "iso";
   std::string up = "z";
-  std::string projection = projectionName(Projection::kOrthographic);
+  std::string projection = nameIn(kProjectionNames, Projection::kOrthographic);
   std::string size = "512x512";
   std::string background = "white";
-  std::string shading = shadingName(Shading::kNormals);
+  std::string shading = nameIn(kShadingNames, Shading::kNormals);
   int samples = 2;
   int occlusionRays = 4;
   VisibleOptions visible;
@@ -84,11 +83,12 @@ Pixel parseBackground(const std::string& text) {
 }
 
 /// The value of a name, or the error that lists all of them.
-template <class Value>
-Value chosen(const char* option, const std::optional<Value>& value, const std::string& text,
-             const std::string& known) {
+template <class Enum, std::size_t N>
+Enum chosen(const char* option, const NameTable<Enum, N>& names, const std::string& text) {
+  const auto value = namedIn(names, text);
   if (!value)
-    throw UsageError(std::string(option) + " must be one of " + known + ", not '" + text + "'");
+    throw UsageError(std::string(option) + " must be one of " + allNamesIn(names) + ", not '" +
+                     text + "'");
   return *value;
 }
 
@@ -97,11 +97,9 @@ RenderOptions parse(const Options& options) {
     throw UsageError(options.output + ": the output of vox render must end in .png");
   RenderOptions parsed;
   parsed.views = parseViews(options.views);
-  parsed.up = chosen("--up", namedIn(kUpAxisNames, options.up), options.up, "y, z");
-  parsed.projection = chosen("--projection", projectionNamed(options.projection),
-                             options.projection, allProjectionNames());
-  parsed.shading.shading =
-      chosen("--shading", shadingNamed(options.shading), options.shading, allShadingNames());
+  parsed.up = chosen("--up", kUpAxisNames, options.up);
+  parsed.projection = chosen("--projection", kProjectionNames, options.projection);
+  parsed.shading.shading = chosen("--shading", kShadingNames, options.shading);
   std::tie(parsed.width, parsed.height) = parseSize(options.size);
   parsed.background = parseBackground(options.background);
   parsed.samples = options.samples;

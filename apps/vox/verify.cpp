@@ -86,7 +86,7 @@ void verify(const Conversion& conversion, const Scene& scene, ConvertOptions opt
     for (const LintFinding& finding : lintGrid(*grid))
       throw CheckFailed("--verify: " + finding.grid + " " + finding.message);
     for (const GridKind kind : {GridKind::kMask, GridKind::kDensity})
-      if (!voxels && grid->getName() == gridName(kind)) voxels = topologyOf(*grid);
+      if (!voxels && grid->getName() == nameIn(kGridNames, kind)) voxels = topologyOf(*grid);
   }
   if (!voxels) throw UsageError("--verify needs a mask or density grid; name one in --grids");
   options.voxelSize = conversion.report.voxelSize;

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "libvox/core/names.h"
 
 namespace vox {
 
@@ -15,14 +12,10 @@ enum class GridKind {
   kColor,    ///< Vec3s, linear colour of black voxels
   kSurface,  ///< Float level set, narrow band of distances to the surface
 };
-
-/// Name in scenes and on the command line: "density".
-std::string gridName(GridKind kind);
-
-/// Grid of that name, or nothing.
-std::optional<GridKind> gridNamed(std::string_view name);
-
-/// "density, mask, surface, normal, color": for messages.
-std::string allGridNames();
+inline constexpr NameTable<GridKind, 5> kGridNames = {{{GridKind::kDensity, "density"},
+                                                       {GridKind::kMask, "mask"},
+                                                       {GridKind::kSurface, "surface"},
+                                                       {GridKind::kNormal, "normal"},
+                                                       {GridKind::kColor, "color"}}};
 
 }  // namespace vox

@@ -10,7 +10,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <system_error>
 
 namespace vox {

@@ -38,7 +38,7 @@ VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second
 
 std::string gridNameFor(GridKind kind, const VolumeOptions& options) {
   // Houdini's attributes: normals N, colours Cd.
-  const std::string name = gridName(kind);
+  const std::string name = nameIn(kGridNames, kind);
   if (options.target != Target::kHoudini) return name;
   return name == "normal" ? "N" : name == "color" ? "Cd" : name;
 }

@@ -25,7 +25,6 @@ constexpr std::array<std::pair<const char*, View>, 7> kViews = {{{"front", {0, 0
                                                                  {"top", {0, 90}},
                                                                  {"bottom", {0, -90}},
                                                                  {"iso", {45, kIsoElevation}}}};
-constexpr std::array kProjections = {Projection::kOrthographic, Projection::kPerspective};
 
 /// Tangent of half the angle of view, along the longer side of a picture: a normal lens.
 constexpr double kTangent = 0.3;
@@ -96,23 +95,6 @@ std::vector<View> parseViews(const std::string& text) {
   }
   if (views.empty()) throw UsageError("no view is given; known are " + allViewNames());
   return views;
-}
-
-std::string projectionName(Projection projection) {
-  return projection == Projection::kOrthographic ? "orthographic" : "perspective";
-}
-
-std::optional<Projection> projectionNamed(std::string_view name) {
-  for (const Projection projection : kProjections)
-    if (projectionName(projection) == name) return projection;
-  return std::nullopt;
-}
-
-std::string allProjectionNames() {
-  std::string names;
-  for (const Projection projection : kProjections)
-    names += (names.empty() ? "" : ", ") + projectionName(projection);
-  return names;
 }
 
 ViewAxes axesOf(const View& view, UpAxis up) {

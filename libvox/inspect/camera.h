@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/core/names.h"
 #include "libvox/core/types.h"
 #include "libvox/grid/volume_options.h"
 
@@ -28,16 +29,9 @@ std::string allViewNames();
 /// @throws UsageError
 std::vector<View> parseViews(const std::string& text);
 
-// The axis of the world that is up in pictures. Z: the front is seen along +y, x to the right, as
-// in Blender. Y: along -z, x to the right, as mesh files of other programs often have it.
-
 enum class Projection { kOrthographic, kPerspective };
-/// "orthographic"
-std::string projectionName(Projection projection);
-/// Value of that name, or nothing.
-std::optional<Projection> projectionNamed(std::string_view name);
-/// For messages: "orthographic, perspective".
-std::string allProjectionNames();
+inline constexpr NameTable<Projection, 2> kProjectionNames = {
+    {{Projection::kOrthographic, "orthographic"}, {Projection::kPerspective, "perspective"}}};
 
 /// A line of sight in world space.
 struct Sight {
@@ -49,6 +43,8 @@ struct Sight {
 struct ViewAxes {
   Vec3d right, up, forward;
 };
+/// @param up  the axis of the world that is up in pictures. Z: the front is seen along +y, x to the
+///   right, as in Blender. Y: along -z, x to the right, as mesh files often have it
 ViewAxes axesOf(const View& view, UpAxis up);
 
 struct Camera {

@@ -6,6 +6,7 @@
 #include "libvox/inspect/components.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/forest.h"
 #include "libvox/core/parallel.h"
 #include "libvox/inspect/leaf_pieces.h"
 
@@ -14,8 +15,8 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <span>
+#include <tuple>
 #include <unordered_map>
 
 namespace vox {
@@ -114,8 +115,8 @@ class Pieces {
     std::map<std::uint32_t, Component> byRoot;
     for (const Entry& entry : entries_)
       for (std::uint32_t i = 0; i < entry.pieceCount; ++i) {
-        const std::uint32_t root = find(entry.firstPiece + i);
-        if (root == find(kOutside) && !active_) continue;
+        const std::uint32_t root = sets_.find(entry.firstPiece + i);
+        if (root == sets_.find(kOutside) && !active_) continue;
         const auto [voxels, first] = sizeOf(entry, i);
         const auto [found, isNew] = byRoot.try_emplace(root, Component{0, first});
         found->second.voxels += voxels;
@@ -135,7 +136,7 @@ class Pieces {
     const openvdb::Index offset = Leaf::coordToOffset(voxel);
     for (std::uint32_t i = 0; i < entry->pieceCount; ++i)
       if (wordsOf(*entry, i)[offset >> 6U] >> (offset & 63U) & 1U)
-        return find(entry->firstPiece + i) == find(kOutside);
+        return sets_.find(entry->firstPiece + i) == sets_.find(kOutside);
     return false;
   }
 
@@ -168,8 +169,7 @@ class Pieces {
       if (pieces > std::numeric_limits<std::uint32_t>::max())
         throw LimitError("the grid has too many pieces to look for components");
     }
-    parent_.resize(pieces);
-    std::iota(parent_.begin(), parent_.end(), 0U);
+    sets_ = Forest(pieces);
   }
 
   static std::uint64_t keyOf(std::int32_t x, std::int32_t y) {
@@ -202,17 +202,6 @@ class Pieces {
     return entry != column.end() && entry->z0 <= z ? &*entry : nullptr;
   }
 
-  std::uint32_t find(std::uint32_t piece) {
-    while (parent_[piece] != piece) piece = parent_[piece] = parent_[parent_[piece]];
-    return piece;
-  }
-
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
   bool isStep(int dx, int dy, int dz) const {
     const int sum = std::abs(dx) + std::abs(dy) + std::abs(dz);
     return neighbours_ == Neighbours::k26 ? sum > 0 : sum == 1;
@@ -236,12 +225,12 @@ class Pieces {
     for (std::uint32_t i = 0; i < entry.pieceCount; ++i) {
       const LeafWords& words = wordsOf(entry, i);
       if (other == nullptr) {
-        if (touch(words, d, kAllVoxels, neighbours_)) unite(entry.firstPiece + i, kOutside);
+        if (touch(words, d, kAllVoxels, neighbours_)) sets_.unite(entry.firstPiece + i, kOutside);
         continue;
       }
       for (std::uint32_t j = 0; j < other->pieceCount; ++j)
         if (touch(words, d, wordsOf(*other, j), neighbours_))
-          unite(entry.firstPiece + i, other->firstPiece + j);
+          sets_.unite(entry.firstPiece + i, other->firstPiece + j);
     }
   }
 
@@ -255,11 +244,11 @@ class Pieces {
         const Column column = columnAt(run.x + dx, run.y + dy);
         const int more = dx == 0 && dy == 0 ? 1 : wide;
         if (!active_ && (column.empty() || run.z0 < column.front().z0 || run.z1 > column.back().z1))
-          unite(run.firstPiece, kOutside);
+          sets_.unite(run.firstPiece, kOutside);
         for (auto other = from(column, run.z0 - more);
              other != column.end() && other->z0 <= run.z1 + more; ++other)
           if (other->leaf == nullptr && other->pieceCount > 0)
-            unite(run.firstPiece, other->firstPiece);
+            sets_.unite(run.firstPiece, other->firstPiece);
       }
   }
 
@@ -277,7 +266,7 @@ class Pieces {
   bool active_;
   Neighbours neighbours_;
   std::vector<LeafWords> words_;
-  std::vector<std::uint32_t> parent_;
+  Forest sets_{0};
   std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> columns_;
 };
 

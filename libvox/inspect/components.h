@@ -4,10 +4,8 @@
 
 #include <openvdb/openvdb.h>
 
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace vox {

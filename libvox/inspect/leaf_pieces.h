@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/grid/surface_grid.h"
+#include "libvox/grid/merge_leaf.h"
 
 #include <openvdb/openvdb.h>
 

@@ -19,6 +19,7 @@
 #include <set>
 #include <sstream>
 #include <type_traits>
+#include <utility>
 
 namespace vox {
 namespace {

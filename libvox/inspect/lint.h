@@ -1,18 +1,10 @@
 #pragma once
 
-#include <openvdb/version.h>
+#include "libvox/grid/grid_base.h"
 
 #include <filesystem>
 #include <string>
 #include <vector>
-
-// Only named here: a translation unit that looks into a grid includes <openvdb/openvdb.h> itself.
-namespace openvdb {
-OPENVDB_USE_VERSION_NAMESPACE
-namespace OPENVDB_VERSION_NAME {
-class GridBase;
-}
-}  // namespace openvdb
 
 namespace vox {
 

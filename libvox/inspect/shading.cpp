@@ -5,15 +5,12 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
 namespace vox {
 namespace {
-
-constexpr std::array kShadings = {Shading::kCongradient, Shading::kNormals, Shading::kFlat};
 
 // Toward the lamps and up the sky, by the axes of the camera: right, up, toward the viewer.
 const Vec3d kLamp = Vec3d(-0.6, 0.7, 0.5).normalized();
@@ -90,31 +87,6 @@ Vec3d facing(const Vec3d& normal, const Vec3d& face, const Vec3d& direction) {
 }
 
 }  // namespace
-
-std::string shadingName(Shading shading) {
-  switch (shading) {
-    case Shading::kCongradient:
-      return "congradient";
-    case Shading::kNormals:
-      return "normals";
-    case Shading::kFlat:
-      return "flat";
-  }
-  return {};
-}
-
-std::optional<Shading> shadingNamed(std::string_view name) {
-  for (const Shading shading : kShadings)
-    if (shadingName(shading) == name) return shading;
-  return std::nullopt;
-}
-
-std::string allShadingNames() {
-  std::string names;
-  for (const Shading shading : kShadings)
-    names += (names.empty() ? "" : ", ") + shadingName(shading);
-  return names;
-}
 
 Shader::Shader(const VisibleGrids& visible, const RayCaster& surface, const ViewAxes& axes,
                const ShadingOptions& options)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/core/names.h"
 #include "libvox/core/types.h"
 #include "libvox/inspect/camera.h"
 #include "libvox/inspect/ray_cast.h"
@@ -10,8 +11,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
 
 namespace vox {
 
@@ -21,12 +20,9 @@ enum class Shading {
   kNormals,      ///< the stored ones; congradient where there is none
   kFlat,         ///< the sides of voxels, to see them
 };
-/// "congradient"
-std::string shadingName(Shading shading);
-/// Value of that name, or nothing.
-std::optional<Shading> shadingNamed(std::string_view name);
-/// For messages: "congradient, normals, flat".
-std::string allShadingNames();
+inline constexpr NameTable<Shading, 3> kShadingNames = {{{Shading::kCongradient, "congradient"},
+                                                         {Shading::kNormals, "normals"},
+                                                         {Shading::kFlat, "flat"}}};
 
 /// Linear red, green and blue.
 using Light = Eigen::Vector3d;

@@ -2,6 +2,7 @@
 
 #include "libvox/inspect/summary.h"
 
+#include "libvox/core/forest.h"
 #include "libvox/io/read_vdb.h"
 #include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/winding_forest.h"
@@ -9,7 +10,6 @@
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 
 namespace vox {
@@ -48,20 +48,15 @@ void countValences(const PolygonMesh& mesh, const std::vector<EdgeCorner>& edges
 
 void measureBoundary(const PolygonMesh& mesh, const std::vector<EdgeCorner>& edges,
                      MeshSummary& summary) {
-  std::vector<Index> parent(mesh.pointCount());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto rootOf = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  Forest loops(mesh.pointCount());
   const auto isBoundary = [](Edge edge) { return edge.size() == 1 && edge[0].low != edge[0].high; };
   forEachEdge(edges, [&](Edge edge) {
-    if (isBoundary(edge)) parent[rootOf(edge[0].low)] = rootOf(edge[0].high);
+    if (isBoundary(edge)) loops.unite(edge[0].low, edge[0].high);
   });
   std::vector<Index> loopOf(mesh.pointCount(), kNone);  // by root
   forEachEdge(edges, [&](Edge edge) {
     if (!isBoundary(edge)) return;
-    Index& loop = loopOf[rootOf(edge[0].low)];
+    Index& loop = loopOf[loops.find(edge[0].low)];
     if (loop == kNone) {
       loop = static_cast<Index>(summary.boundaryLoops.size());
       summary.boundaryLoops.push_back(0);

@@ -10,9 +10,8 @@
 namespace vox {
 
 struct VisibleOptions {
-  std::string grid;  ///< that is shown; empty: chosen as told below
-  std::optional<double>
-      threshold;  ///< fog above it is solid; default: a tenth of the largest value
+  std::string grid;                 ///< that is shown; empty: chosen as told below
+  std::optional<double> threshold;  ///< fog above it is solid; default: a tenth of the largest
 };
 
 /// What there is to see in the grids of a file.

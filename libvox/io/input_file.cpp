@@ -5,7 +5,6 @@
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 
-#include <cstdint>
 #include <fstream>
 #include <system_error>
 

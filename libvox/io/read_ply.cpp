@@ -11,7 +11,6 @@
 #include "libvox/io/read_mesh.h"
 #include "libvox/io/text_scanner.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

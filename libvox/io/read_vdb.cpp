@@ -8,7 +8,6 @@
 
 #include <openvdb/io/Stream.h>
 
-#include <cstdint>
 #include <fstream>
 #include <map>
 #include <new>

@@ -23,8 +23,7 @@ struct VdbFile {
 
 /// Opens a .vdb file of any program. Values are loaded on demand from files of ours, whose hash
 /// shows them to be whole, and from large ones; of others all is read.
-/// @throws InputError  missing, not a .vdb file that OpenVDB can read, or one of ours that is
-/// damaged
+/// @throws InputError  missing, not a .vdb file that OpenVDB can read, or one of ours but damaged
 VdbFile readVdb(const std::filesystem::path& file);
 
 /// Looks at one grid after the other; those loaded on demand are in memory one at a time.

@@ -1,10 +1,9 @@
 #pragma once
 
+#include "libvox/core/names.h"
 #include "libvox/core/types.h"
 
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace vox {
@@ -14,26 +13,21 @@ enum class BoundaryRule {
   kExtend,  ///< at the closed uniform quadratic B-spline of each boundary loop
   kFree,    ///< plain Doo-Sabin: half a face inside, so the surface shrinks from its boundary
 };
+inline constexpr NameTable<BoundaryRule, 2> kBoundaryRuleNames = {
+    {{BoundaryRule::kExtend, "extend"}, {BoundaryRule::kFree, "free"}}};
 
 /// Which vertices of the input the smooth surface passes through.
 enum class Interpolate { kNothing, kInterior, kBoundary, kBoth };
-
-/// Names in scenes and on the command line: "extend", "interior".
-std::string boundaryRuleName(BoundaryRule rule);
-std::string interpolateName(Interpolate which);
-
-/// Value of that name, or nothing.
-std::optional<BoundaryRule> boundaryRuleNamed(std::string_view name);
-std::optional<Interpolate> interpolateNamed(std::string_view name);
-
-/// For messages: "extend, free".
-std::string allBoundaryRuleNames();
-std::string allInterpolateNames();
+inline constexpr NameTable<Interpolate, 4> kInterpolateNames = {
+    {{Interpolate::kNothing, "none"},
+     {Interpolate::kInterior, "interior"},
+     {Interpolate::kBoundary, "boundary"},
+     {Interpolate::kBoth, "both"}}};
 
 /// How to smooth an object, as far as somebody said.
 struct SmoothingOptions {
   std::optional<BoundaryRule> boundary;                    ///< default: kExtend
-  std::optional<Interpolate> interpolate;                  ///< default: kNone
+  std::optional<Interpolate> interpolate;                  ///< default: kNothing
   std::optional<std::vector<Index>> interpolatedVertices;  ///< interior ones, besides `interpolate`
 };
 

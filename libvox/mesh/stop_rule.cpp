@@ -3,7 +3,6 @@
 #include "libvox/mesh/stop_rule.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -13,7 +12,6 @@ namespace vox {
 namespace {
 
 constexpr std::string_view kVoxel = "voxel";
-constexpr std::array kVoxelizes = {Voxelize::kAuto, Voxelize::kVertex, Voxelize::kPolygon};
 
 template <class Number>
 std::optional<Number> parse(std::string_view text) {
@@ -101,31 +99,6 @@ std::optional<StopRule> stopRuleNamed(std::string_view name) {
 std::string allStopRuleNames() {
   return std::string(kVoxel) + ", levels=K with K from 0 to " + std::to_string(kMostLevels) +
          ", diameter=D, angle=DEG, flatness=D, or several of them with commas";
-}
-
-std::string voxelizeName(Voxelize voxelize) {
-  switch (voxelize) {
-    case Voxelize::kAuto:
-      return "auto";
-    case Voxelize::kVertex:
-      return "vertex";
-    case Voxelize::kPolygon:
-      return "polygon";
-  }
-  return {};
-}
-
-std::optional<Voxelize> voxelizeNamed(std::string_view name) {
-  for (const Voxelize voxelize : kVoxelizes)
-    if (voxelizeName(voxelize) == name) return voxelize;
-  return std::nullopt;
-}
-
-std::string allVoxelizeNames() {
-  std::string names;
-  for (const Voxelize voxelize : kVoxelizes)
-    names += (names.empty() ? "" : ", ") + voxelizeName(voxelize);
-  return names;
 }
 
 }  // namespace vox

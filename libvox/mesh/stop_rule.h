@@ -1,5 +1,7 @@
 #pragma once
 
+#include "libvox/core/names.h"
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,8 +17,7 @@ struct StopRule {
   std::optional<int> levels = {};       ///< Doo-Sabin steps, 0..kMostLevels
   std::optional<double> diameter = {};  ///< L-inf diameter of the faces, voxels, > 0
   std::optional<double> angle = {};     ///< between normals of adjacent faces, degrees, in (0, 180]
-  std::optional<double> flatness =
-      {};  ///< distance of the faces from the smooth surface, voxels, > 0
+  std::optional<double> flatness = {};  ///< distance of faces from the surface, voxels, > 0
 
   bool untilVoxel() const { return !levels && !diameter && !angle && !flatness; }
   bool operator==(const StopRule&) const = default;
@@ -41,12 +42,7 @@ enum class Voxelize {
   kVertex,   ///< every vertex blackens its voxel
   kPolygon,  ///< polygons are scan-converted
 };
-
-/// Names on the command line: "auto".
-std::string voxelizeName(Voxelize voxelize);
-/// Value of that name, or nothing.
-std::optional<Voxelize> voxelizeNamed(std::string_view name);
-/// For messages: "auto, vertex, polygon".
-std::string allVoxelizeNames();
+inline constexpr NameTable<Voxelize, 3> kVoxelizeNames = {
+    {{Voxelize::kAuto, "auto"}, {Voxelize::kVertex, "vertex"}, {Voxelize::kPolygon, "polygon"}}};
 
 }  // namespace vox

@@ -3,10 +3,10 @@
 #include "libvox/mesh/validate.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/forest.h"
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <span>
 
 namespace vox {
@@ -76,22 +76,17 @@ void findEdgeDefects(std::span<const EdgeCorner> edges, const Adjacency& adjacen
 /// winding of the faces.
 std::vector<Index> countFans(const PolygonMesh& mesh, std::span<const EdgeCorner> edges,
                              const Adjacency& adjacency) {
-  std::vector<Index> parent(mesh.cornerCount());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto rootOf = [&](Index c) {
-    while (parent[c] != c) c = parent[c] = parent[parent[c]];
-    return c;
-  };
+  Forest fanOf(mesh.cornerCount());
   const auto cornerAt = [&](Index v, Index edge) {
     return mesh.faceVertices[edge] == v ? edge : nextCorner(mesh, adjacency, edge);
   };
   forEachEdge(edges, [&](std::span<const EdgeCorner> edge) {
     if (edge.size() != 2 || edge[0].low == edge[0].high) return;
     for (const Index v : {edge[0].low, edge[0].high})
-      parent[rootOf(cornerAt(v, edge[0].corner))] = rootOf(cornerAt(v, edge[1].corner));
+      fanOf.unite(cornerAt(v, edge[0].corner), cornerAt(v, edge[1].corner));
   });
   std::vector<Index> fans(mesh.pointCount(), 0);
-  for (Index c = 0; c < mesh.cornerCount(); ++c) fans[mesh.faceVertices[c]] += parent[c] == c;
+  for (Index c = 0; c < mesh.cornerCount(); ++c) fans[mesh.faceVertices[c]] += fanOf.find(c) == c;
   return fans;
 }
 

@@ -2,15 +2,14 @@
 
 #include "libvox/mesh/winding_forest.h"
 
-#include <numeric>
+#include "libvox/core/numbered.h"
+
 #include <utility>
 
 namespace vox {
 
 WindingForest::WindingForest(Index faceCount)
-    : parent_(faceCount), size_(faceCount, 1), against_(faceCount, 0) {
-  std::iota(parent_.begin(), parent_.end(), 0);
-}
+    : parent_(numbered(faceCount)), size_(faceCount, 1), against_(faceCount, 0) {}
 
 WindingForest::Place WindingForest::find(Index f) const {
   bool against = false;

@@ -1,4 +1,4 @@
-// The whole conversion: the only place that knows every stage.
+// The whole conversion, stage by stage.
 
 #include "libvox/pipeline/convert.h"
 
@@ -12,13 +12,13 @@
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
-#include "libvox/mesh/adjacency.h"
+#include "libvox/pipeline/asked.h"
 #include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/estimate.h"
 #include "libvox/pipeline/grids.h"
-#include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/metadata.h"
 #include "libvox/pipeline/polygons.h"
+#include "libvox/pipeline/prepare_scene.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/pipeline/work.h"
@@ -28,144 +28,9 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 
 namespace vox {
 namespace {
-
-/// Adds the time of a scope to a total.
-class StageTimer {
- public:
-  explicit StageTimer(double& total) : total_(total) {}
-  ~StageTimer() { total_ += watch_.seconds(); }
-  StageTimer(const StageTimer&) = delete;
-  StageTimer& operator=(const StageTimer&) = delete;
-
- private:
-  double& total_;
-  Stopwatch watch_;
-};
-
-// Resolution
-
-GridTransform chooseTransform(const Box& box, const Scene& scene, const ConvertOptions& options) {
-  const bool fromOptions = options.dim || options.voxelSize;
-  const auto voxelSize = fromOptions ? options.voxelSize : scene.voxelSize;
-  const int dim = (fromOptions ? options.dim : scene.dim).value_or(kDefaultDim);
-  GridTransform transform =
-      voxelSize ? transformForVoxelSize(*voxelSize) : transformForDim(box, dim);
-  transform.turn = turnOf(overriding(options.volume, scene.volume));
-  requireInRange(box, transform);
-  return transform;
-}
-
-void moveToIndexSpace(PolygonMesh& mesh, const GridTransform& transform) {
-  for (Vec3d& point : mesh.points) point = transform.toIndex(point);
-}
-
-/// What a user may not expect of an open mesh.
-void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, ConvertReport& report) {
-  const std::size_t loops = boundaryLoops(level.mesh, level.adjacency).size();
-  if (loops == 0) return;
-  constexpr const char* kWhy =
-      ": faces are neighbours only where their vertices coincide exactly; --weld joins near ones";
-  const bool separate = loops >= level.mesh.faceCount();
-  if (level.boundary == BoundaryStage::kPlain)
-    report.warnings.push_back(name + " is open: it has " + std::to_string(loops) + " boundary " +
-                              (loops == 1 ? "loop" : "loops") + ", from which it shrinks" +
-                              (separate ? std::string(" to dots") + kWhy : ""));
-  else if (separate && loops > 1)
-    report.warnings.push_back(name + " falls apart into " + std::to_string(loops) +
-                              " separate faces, each smoothed by itself" + kWhy);
-}
-
-// Where to stop
-
-StopRule stopRuleOf(const SceneObject& object, const Scene& scene, const ConvertOptions& options) {
-  for (const auto& said : {options.until, object.until, scene.until})
-    if (said) return *said;
-  return {};
-}
-
-Voxelize voxelizeOf(const SceneObject& object, const Scene& scene, const ConvertOptions& options) {
-  for (const auto& said : {options.voxelize, object.voxelize, scene.voxelize})
-    if (said) return *said;
-  return Voxelize::kAuto;
-}
-
-void requireStopRules(const Scene& scene, const ConvertOptions& options) {
-  for (const SceneObject& object : scene.objects) {
-    const std::string fault = faultOf(stopRuleOf(object, scene, options),
-                                      voxelizeOf(object, scene, options), options.separation);
-    if (!fault.empty()) throw UsageError(object.name + ": " + fault);
-  }
-}
-
-// Progress
-
-/// Area of each object's control mesh, in square voxels: what the work of the later stages follows.
-/// Zeros when nobody watches.
-std::vector<double> areasOf(const Scene& scene, const GridTransform& transform,
-                            const Progress& progress) {
-  std::vector<double> areas(scene.objects.size(), 0.0);
-  for (std::size_t i = 0; progress.watched() && i < areas.size(); ++i)
-    areas[i] = areaOf(scene.objects[i].mesh) / transform.voxelSize / transform.voxelSize;
-  return areas;
-}
-
-double workOfPreparing(const SceneObject& object, const ConvertOptions& options) {
-  return workOfPreparing(object.mesh,
-                         interpolates(overriding(options.smoothing, object.smoothing)));
-}
-
-/// Voxels of a level set beside those of a surface, about.
-constexpr double kVoxelsOfBand = 4;
-
-double workOfWriting(GridKind kind, double area) {
-  switch (kind) {
-    case GridKind::kDensity:
-      return workOfWritingDensity(area);
-    case GridKind::kMask:
-      return workOfWritingMask(area);
-    case GridKind::kSurface:
-      return kVoxelsOfBand * workOfWritingDensity(area);
-    case GridKind::kNormal:
-      return workOfWritingNormals(area);
-    case GridKind::kColor:
-      return workOfWritingColor(area);
-  }
-  return 0;
-}
-
-/// Announces all stages, writing included.
-void plan(const Scene& scene, const ConvertOptions& options, std::span<const double> areas,
-          std::span<const GridKind> kinds, Progress& progress) {
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    const SceneObject& object = scene.objects[i];
-    progress.plan(workOfPreparing(object, options) +
-                  workOfSurface(areas[i], object.mesh.cornerCount()));
-    for (const GridKind kind : kinds) progress.plan(workOfWriting(kind, areas[i]));
-  }
-  progress.plan(workOfGrids(areas, kinds));
-}
-
-// Conversion
-
-/// Whether a grid tells inside from outside.
-bool needsInside(std::span<const GridKind> kinds, const VolumeOptions& volume) {
-  return std::any_of(kinds.begin(), kinds.end(), [&](GridKind kind) {
-    return kind == GridKind::kSurface ||
-           (kind == GridKind::kDensity && volume.fill == Fill::kSolid);
-  });
-}
-
-/// Notes what preparation did, and refuses vertices that it moved out of the range of the grid.
-void notePreparation(const PreparedObject& prepared, const GridTransform& transform,
-                     ObjectReport& part, ConvertReport& report) {
-  part.interpolation = prepared.interpolation;
-  report.warnings.insert(report.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
-  requireInRange(usedBox(prepared.base.mesh), transform, part.name + ", once interpolated,");
-}
 
 /// What became of a surface, for the report.
 void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
@@ -194,34 +59,6 @@ void convertPolygons(const PreparedSurface& surface, const SurfaceOptions& optio
                        (fanned == 1 ? " polygon is" : " polygons are") +
                        " folded or without area and became " + (fanned == 1 ? "a fan" : "fans") +
                        " of triangles");
-}
-
-/// How an object becomes voxels as far as somebody said: near enough to tell how many.
-ConversionWay wayAsked(const StopRule& until, Separation separation) {
-  return {!until.untilVoxel() || separation == Separation::k26, until, separation};
-}
-
-/// Every object, ready to subdivide in index space.
-std::vector<PreparedSurface> prepareObjects(const Scene& scene, const ConvertOptions& options,
-                                            const GridTransform& transform, MemoryBudget& budget,
-                                            Progress& progress, ConvertReport& report) {
-  const StageTimer timer(report.prepareSeconds);
-  std::vector<PreparedSurface> surfaces;
-  for (const SceneObject& object : scene.objects) {
-    ObjectReport& part = report.objects.emplace_back();
-    part.name = object.name;
-    part.inputFaces = object.mesh.faceCount();
-    const StopRule until = stopRuleOf(object, scene, options);
-    progress.begin("prepare", workOfPreparing(object, options));
-    PreparedObject prepared = prepare(scene, object, options, budget, progress);
-    if (until.levels != 0) warnOfBoundary(part.name, prepared.base, report);
-    notePreparation(prepared, transform, part, report);
-    moveToIndexSpace(prepared.base.mesh, transform);
-    budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
-    surfaces.push_back({object.name, std::move(prepared.base), wayAsked(until, options.separation),
-                        textureOf(object, options.texture, transform.turn)});
-  }
-  return surfaces;
 }
 
 /// How each object becomes voxels.
@@ -271,17 +108,6 @@ openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<PreparedSurface
   return mask;
 }
 
-/// The grids asked for.
-std::vector<GridKind> gridsOf(const Scene& scene, const ConvertOptions& options) {
-  std::vector<GridKind> kinds =
-      options.grids.value_or(scene.grids.value_or(std::vector{GridKind::kDensity}));
-  const bool colored = std::find(kinds.begin(), kinds.end(), GridKind::kColor) != kinds.end();
-  if (!options.texture || colored) return kinds;
-  if (options.grids) throw UsageError("--texture needs color among --grids");
-  kinds.push_back(GridKind::kColor);
-  return kinds;
-}
-
 /// Whether it matters which voxels belong to which object.
 bool needsVoxelsApart(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds) {
   return surfaces.size() > 1 &&
@@ -296,42 +122,6 @@ openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
   for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
     grid->insertMeta(entry->first, *entry->second);
   return grid;
-}
-
-/// Everything that a conversion begins with.
-struct Preparation {
-  MemoryBudget budget;
-  std::vector<GridKind> kinds;
-  VolumeOptions volume;
-  GridTransform transform = {};
-  std::vector<double> areas = {};
-  std::vector<PreparedSurface> surfaces = {};
-  Estimate estimate = {};
-};
-
-Preparation prepareScene(const Scene& scene, const ConvertOptions& options, Progress& progress,
-                         ConvertReport& report) {
-  report.threads = tbb::this_task_arena::max_concurrency();
-  Preparation prepared{MemoryBudget(options.run.maxMemory), gridsOf(scene, options),
-                       overriding(options.volume, scene.volume)};
-  MemoryBudget& budget = prepared.budget;
-  for (const SceneObject& object : scene.objects)
-    budget.take(bytesOf(object.mesh), "the input", "raise --max-memory");
-
-  const Box box = boxOf(scene);
-  prepared.transform = chooseTransform(box, scene, options);
-  report.voxelSize = prepared.transform.voxelSize;
-  prepared.areas = areasOf(scene, prepared.transform, progress);
-  plan(scene, options, prepared.areas, prepared.kinds, progress);
-  prepared.surfaces = prepareObjects(scene, options, prepared.transform, budget, progress, report);
-  if (needsInside(prepared.kinds, prepared.volume))
-    for (const PreparedSurface& surface : prepared.surfaces)
-      requireInside(surface, prepared.volume.openMesh.value_or(OpenMesh::kSurface),
-                    prepared.transform, report.warnings);
-  prepared.estimate = estimateGrids(prepared.surfaces, prepared.kinds, prepared.volume);
-  prepared.estimate.voxelSize = report.voxelSize;
-  prepared.estimate.refusal = refusalOf(prepared.estimate, box.longestSide(), budget);
-  return prepared;
 }
 
 Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progress& progress) {

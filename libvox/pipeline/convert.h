@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/grid/grid_base.h"
 #include "libvox/grid/grid_kind.h"
 #include "libvox/grid/texture_spec.h"
 #include "libvox/grid/transform.h"
@@ -14,8 +15,6 @@
 #include "libvox/prepare/interpolate.h"
 #include "libvox/voxelize/vertex_sink.h"
 
-#include <openvdb/version.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
@@ -23,14 +22,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-// Only named here: a translation unit that looks into a grid includes <openvdb/openvdb.h> itself.
-namespace openvdb {
-OPENVDB_USE_VERSION_NAMESPACE
-namespace OPENVDB_VERSION_NAME {
-class GridBase;
-}
-}  // namespace openvdb
 
 namespace vox {
 

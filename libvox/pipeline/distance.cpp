@@ -13,8 +13,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
-#include <utility>
 #include <vector>
 
 namespace vox {

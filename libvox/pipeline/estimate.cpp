@@ -3,6 +3,7 @@
 
 #include "libvox/pipeline/estimate.h"
 
+#include "libvox/core/numbered.h"
 #include "libvox/grid/voxel_means.h"
 #include "libvox/mesh/area_vector.h"
 #include "libvox/pipeline/distance.h"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -138,8 +138,7 @@ Measure measureOf(const PreparedSurface& surface, Cubes& leaves, Cubes& lowers) 
   addAreas(polygons, measure);
   leaves.add(polygons, measure.area);
   lowers.add(polygons, measure.area);
-  std::vector<Index> faces(polygons.faceCount());
-  std::iota(faces.begin(), faces.end(), Index{0});
+  const std::vector<Index> faces = numbered(polygons.faceCount());
   const auto& twin = surface.base.adjacency.twin;
   const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
   if (!open) measure.volume = std::max(0.0, signedVolume(polygons, faces).volume);

@@ -6,7 +6,6 @@
 #include "libvox/grid/volume_options.h"
 #include "libvox/pipeline/surface.h"
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>

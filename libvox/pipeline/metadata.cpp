@@ -19,8 +19,9 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
   else
     text << "dim=" << options.dim.value_or(scene.dim.value_or(kDefaultDim));
   const SmoothingOptions& smoothing = options.smoothing;
-  if (smoothing.boundary) text << " boundary=" << boundaryRuleName(*smoothing.boundary);
-  if (smoothing.interpolate) text << " interpolate=" << interpolateName(*smoothing.interpolate);
+  if (smoothing.boundary) text << " boundary=" << nameIn(kBoundaryRuleNames, *smoothing.boundary);
+  if (smoothing.interpolate)
+    text << " interpolate=" << nameIn(kInterpolateNames, *smoothing.interpolate);
   if (smoothing.interpolatedVertices)
     text << " interpolated-vertices=" << smoothing.interpolatedVertices->size();
   if (options.weldTolerance) text << " weld=" << *options.weldTolerance;
@@ -35,7 +36,7 @@ std::string optionText(const GridTransform& transform, const Scene& scene,
   if (options.volume.target) text << " target=" << nameIn(kTargetNames, *options.volume.target);
   if (options.volume.up) text << " up=" << nameIn(kUpAxisNames, *options.volume.up);
   if (options.until) text << " until=" << stopRuleName(*options.until);
-  if (options.voxelize) text << " voxelize=" << voxelizeName(*options.voxelize);
+  if (options.voxelize) text << " voxelize=" << nameIn(kVoxelizeNames, *options.voxelize);
   return text.str();
 }
 

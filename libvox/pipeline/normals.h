@@ -7,14 +7,13 @@
 
 namespace vox {
 
-/// Adds the normals of a surface to the means of its voxels: of every polygon to all voxels of the
-/// mask that it meets (closed cubes).
+/// Adds the normals of a surface to the means of its voxels.
 ///
-/// A surface that became polygons gives these, with the exact normals of the smooth surface at
-/// their vertices, blended over the triangles: a voxel takes the normal at the point nearest to its
-/// centre. Polygons that were not smoothed are the surface, and flat. A surface that became voxels
-/// by its vertices gives polygons that fit into a voxel, with their own normals, which at centroids
-/// of quads are those of the smooth surface (DESIGN section 5).
+/// A surface that became voxels by its vertices gives each voxel the limit normals at the vertices
+/// in it. One that became polygons gives these to all voxels of the mask that they meet (closed
+/// cubes), with the limit normals at their vertices, blended over the triangles: a voxel takes the
+/// normal at the point nearest to its centre. Polygons that were not smoothed are the surface, and
+/// flat. Source: paper section 8.
 ///
 /// @param base  in index space
 /// @throws LimitError, Cancelled

@@ -29,8 +29,7 @@ struct PolygonReport {
 /// @param until   not untilVoxel()
 /// @param budget  for the nodes of the grid, and a refined mesh, until this returns
 /// @throws LimitError  not enough memory, too many polygons, 2^32 - 1 corners or more, or a
-/// triangle
-///   beyond the range of the scan
+///   triangle beyond the range of the scan
 /// @throws Cancelled
 void markPolygons(SubdivisionLevel base, const StopRule& until, const SurfaceOptions& options,
                   Separation separation, MemoryBudget budget, Progress& progress, SurfaceGrid& grid,

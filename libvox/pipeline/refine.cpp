@@ -96,6 +96,12 @@ std::vector<Index> verticesFrom(std::span<const Index> inputVertices, const Vert
   return found;
 }
 
+/// Whether an object interpolates anything, by its own smoothing.
+bool interpolates(const SmoothingOptions& own) {
+  return own.interpolate.value_or(Interpolate::kNothing) != Interpolate::kNothing ||
+         (own.interpolatedVertices && !own.interpolatedVertices->empty());
+}
+
 /// Peak of interpolation: an image per corner, and the vectors of the solver.
 std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
   constexpr std::uint64_t kPerCorner = sizeof(Vec3d) + sizeof(Index);
@@ -125,8 +131,7 @@ struct RefineWork {
   double subdivide;
   double write;
   RefineWork(const SceneObject& object, int levels, const SmoothingOptions& smoothing)
-      : prepare(
-            workOfPreparing(object.mesh, interpolates(overriding(smoothing, object.smoothing)))),
+      : prepare(workOfPreparing(object, smoothing)),
         subdivide(kPerCorner * object.mesh.cornerCount() * std::ldexp(1.0, 2 * levels)),
         write(kWritingPerCorner * object.mesh.cornerCount() * std::ldexp(1.0, 2 * levels)) {}
 
@@ -160,9 +165,8 @@ Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& p
 
 }  // namespace
 
-bool interpolates(const SmoothingOptions& own) {
-  return own.interpolate.value_or(Interpolate::kNothing) != Interpolate::kNothing ||
-         (own.interpolatedVertices && !own.interpolatedVertices->empty());
+double workOfPreparing(const SceneObject& object, const SmoothingOptions& said) {
+  return workOfPreparing(object.mesh, interpolates(overriding(said, object.smoothing)));
 }
 
 std::uint64_t bytesOf(const PolygonMesh& mesh) {

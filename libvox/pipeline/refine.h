@@ -51,8 +51,8 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
                        const PreparationOptions& options, const MemoryBudget& budget,
                        Progress& progress);
 
-/// Whether an object interpolates anything, by its own smoothing.
-bool interpolates(const SmoothingOptions& own);
+/// Work (work.h) of preparing an object, where what `said` sets goes before what it says itself.
+double workOfPreparing(const SceneObject& object, const SmoothingOptions& said);
 
 /// K Doo-Sabin steps.
 /// @throws LimitError  a level does not fit into the budget, or has 2^32 - 1 corners or more

@@ -2,6 +2,7 @@
 
 #include "libvox/mesh/polygon_mesh.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,5 +19,10 @@ bool canonicalize(std::span<Index> face);
 
 /// Canonicalizes every face; slot f of the result says whether face f was reversed. Parallel.
 std::vector<std::uint8_t> canonicalizeFaces(PolygonMesh& mesh);
+
+/// For each face, the first face on the same cycle of vertices, in either direction. Cost
+/// O(C log C); parallel in part.
+/// @param mesh  faces of distinct vertices
+std::vector<Index> firstAlike(const PolygonMesh& mesh);
 
 }  // namespace vox

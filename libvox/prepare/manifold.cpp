@@ -6,6 +6,7 @@
 #include "libvox/prepare/manifold.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/forest.h"
 #include "libvox/mesh/area_vector.h"
 #include "libvox/mesh/winding_forest.h"
 #include "libvox/prepare/face_order.h"
@@ -14,8 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -111,28 +110,9 @@ void pairCrowdedEdges(const PolygonMesh& mesh, std::span<const EdgeCorner> edges
   });
 }
 
-/// Fans of corners; the root of a fan is its lowest corner.
-class FanForest {
- public:
-  explicit FanForest(Index cornerCount) : parent_(cornerCount) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  Index find(Index c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-  void unite(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
-FanForest findFans(const PolygonMesh& mesh, const Adjacency& joints) {
-  FanForest fans(mesh.cornerCount());
+/// Fans of corners.
+Forest findFans(const PolygonMesh& mesh, const Adjacency& joints) {
+  Forest fans(mesh.cornerCount());
   for (Index c = 0; c < mesh.cornerCount(); ++c) {
     const Index t = joints.twin[c];
     if (t == kNone || t < c) continue;
@@ -161,7 +141,7 @@ Joints joinFaces(const PolygonMesh& mesh, CrowdedEdge crowded) {
 }
 
 std::vector<Index> splitFans(PolygonMesh& mesh, const Adjacency& joints) {
-  FanForest fans = findFans(mesh, joints);
+  Forest fans = findFans(mesh, joints);
   std::vector<bool> taken(mesh.pointCount(), false);
   std::vector<std::pair<Index, Index>> further;  // (vertex, lowest corner of the fan)
   for (Index c = 0; c < mesh.cornerCount(); ++c) {

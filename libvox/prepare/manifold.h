@@ -27,10 +27,9 @@ enum class CrowdedEdge {
 /// free; an odd face ends there:
 ///  1. faces that already belong to one sheet and would close it with consistent winding (two cubes
 ///     that touch along an edge stay two cubes);
-///  2. faces of different sheets, the flattest pair first (a fin on a plate leaves the plate
-///  whole).
-/// A pair that would make its sheet one-sided is never joined, and an edge of more than
-/// 32 faces has no sheets to speak of: they all end there. Ties go to the lower faces.
+///  2. faces of different sheets, the flattest pair first: a fin on a plate leaves the plate whole.
+/// A pair that would make its sheet one-sided is never joined. The faces of an edge of more than 32
+/// all end there: it has no sheets to speak of. Ties go to the lower faces.
 /// A sheet is what is joined so far: first over all edges of two faces, then edge by edge.
 /// Neither the winding of the input nor the corner a face starts at has any influence.
 ///

@@ -3,6 +3,7 @@
 #include "libvox/prepare/orient.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/numbered.h"
 #include "libvox/prepare/enclosure.h"
 #include "libvox/prepare/face_order.h"
 #include "libvox/prepare/manifold.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 namespace vox {
@@ -263,12 +263,6 @@ class DoubleCover {
   std::vector<Index> covered_;
   std::vector<Index> mirrorFace_;
 };
-
-std::vector<Index> numbered(Index count) {
-  std::vector<Index> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), 0);
-  return numbers;
-}
 
 std::string counted(Index count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");

@@ -2,15 +2,15 @@
 
 #include "libvox/prepare/repair.h"
 
-#include "libvox/core/parallel.h"
+#include "libvox/core/numbered.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/prepare/chord.h"
 #include "libvox/prepare/face_order.h"
+#include "libvox/prepare/loop_cutter.h"
 #include "libvox/prepare/manifold.h"
 #include "libvox/prepare/weld.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -41,12 +41,6 @@ void note(RepairReport& report, RepairKind kind, Index element, Message&& messag
   action.message = message();
 }
 
-std::vector<Index> numbered(Index count) {
-  std::vector<Index> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), 0);
-  return numbers;
-}
-
 std::vector<bool> usedPoints(const PolygonMesh& mesh) {
   std::vector<bool> used(mesh.pointCount(), false);
   for (const Index v : mesh.faceVertices) used[v] = true;
@@ -63,37 +57,6 @@ void weld(Draft& draft, double tolerance, RepairReport& report) {
   }
   for (Index& v : draft.mesh.faceVertices) v = report.weldedTo[v];
 }
-
-/// Cuts cyclic lists of vertices where they return to a vertex.
-class LoopCutter {
- public:
-  explicit LoopCutter(Index pointCount) : place_(pointCount, kNone) {}
-
-  /// Calls visit(loop) with the loops of a face, each without repeats of its own. A loop of
-  /// one corner is a repeat (v v), one of two a spike (a b a). Linear in the face.
-  template <class Visit>
-  void cut(std::span<const Index> face, Visit&& visit) {
-    for (const Index v : face) {
-      if (place_[v] != kNone) {
-        visit(std::span<const Index>(path_).subspan(place_[v]));
-        shorten(place_[v]);
-      }
-      place_[v] = static_cast<Index>(path_.size());
-      path_.push_back(v);
-    }
-    visit(std::span<const Index>(path_));
-    shorten(0);
-  }
-
- private:
-  void shorten(std::size_t size) {
-    for (std::size_t k = size; k < path_.size(); ++k) place_[path_[k]] = kNone;
-    path_.resize(size);
-  }
-
-  std::vector<Index> path_;
-  std::vector<Index> place_;  // of each vertex in the path, or kNone
-};
 
 void noteCleaning(Index f, Index loops, bool repeats, RepairReport& report) {
   if (loops == 0)
@@ -127,30 +90,6 @@ void cleanFaces(Draft& draft, RepairReport& report) {
   clean.points = std::move(draft.mesh.points);
   draft.mesh = std::move(clean);
   draft.faceOrigin = std::move(faceOrigin);
-}
-
-/// For each face, the first face on the same cycle of vertices.
-std::vector<Index> firstAlike(const PolygonMesh& mesh) {
-  PolygonMesh canonical;
-  canonical.faceOffsets = mesh.faceOffsets;
-  canonical.faceVertices = mesh.faceVertices;
-  canonicalizeFaces(canonical);
-  std::vector<Index> order = numbered(mesh.faceCount());
-  sortInParallel(order, [&](Index f, Index g) {
-    const auto a = canonical.face(f);
-    const auto b = canonical.face(g);
-    if (a.size() != b.size()) return a.size() < b.size();
-    const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin());
-    return x == a.end() ? f < g : *x < *y;
-  });
-
-  std::vector<Index> first = numbered(mesh.faceCount());
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    const auto a = canonical.face(order[k - 1]);
-    const auto b = canonical.face(order[k]);
-    if (std::equal(a.begin(), a.end(), b.begin(), b.end())) first[order[k]] = first[order[k - 1]];
-  }
-  return first;
 }
 
 void dropDuplicates(Draft& draft, RepairReport& report) {
@@ -294,49 +233,7 @@ void removeUnused(Draft& draft) {
   for (Index& v : draft.mesh.faceVertices) v = newName[v];
 }
 
-struct Phrase {
-  const char* verb;
-  const char* one;
-  const char* many;
-};
-constexpr std::array<Phrase, kRepairKindCount> kPhrases = {{
-    {"welded", "vertex", "vertices"},
-    {"removed repeated corners from", "face", "faces"},
-    {"split", "face that touches itself", "faces that touch themselves"},
-    {"dropped", "degenerate face", "degenerate faces"},
-    {"dropped", "duplicate face", "duplicate faces"},
-    {"cut", "edge", "edges"},
-    {"split", "vertex", "vertices"},
-    {"chorded", "vertex", "vertices"},
-    {"closed up", "face", "faces"},
-    {"dropped", "flat component", "flat components"},
-    {"removed", "unused vertex", "unused vertices"},
-}};
-
 }  // namespace
-
-bool RepairReport::changed() const {
-  return std::any_of(actions.begin(), actions.end(),
-                     [](const RepairAction& action) { return action.count > 0; });
-}
-
-std::string repairName(RepairKind kind) {
-  const Phrase& phrase = kPhrases[static_cast<std::size_t>(kind)];
-  return std::string(phrase.verb) + " " + phrase.many;
-}
-
-std::string summary(const RepairReport& report) {
-  std::string line;
-  for (std::size_t k = 0; k < kRepairKindCount; ++k) {
-    const std::size_t count = report.actions[k].count;
-    if (count == 0) continue;
-    if (!line.empty()) line += ", ";
-    const Phrase& phrase = kPhrases[k];
-    line +=
-        std::string(phrase.verb) + " " + str(count) + " " + (count == 1 ? phrase.one : phrase.many);
-  }
-  return line;
-}
 
 PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport& report) {
   requireValidArrays(mesh);

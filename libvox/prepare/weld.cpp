@@ -4,22 +4,16 @@
 #include "libvox/prepare/weld.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/numbered.h"
 #include "libvox/core/parallel.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
 
 namespace vox {
 namespace {
-
-std::vector<Index> identity(std::size_t count) {
-  std::vector<Index> target(count);
-  std::iota(target.begin(), target.end(), 0);
-  return target;
-}
 
 std::vector<Index> weldEqual(const std::vector<Vec3d>& points, const std::vector<bool>& used) {
   std::vector<Index> order;
@@ -34,7 +28,7 @@ std::vector<Index> weldEqual(const std::vector<Vec3d>& points, const std::vector
   };
   sortInParallel(order, before);
 
-  std::vector<Index> target = identity(points.size());
+  std::vector<Index> target = numbered(points.size());
   for (std::size_t k = 1; k < order.size(); ++k)
     if (points[order[k]] == points[order[k - 1]]) target[order[k]] = target[order[k - 1]];
   return target;
@@ -94,7 +88,7 @@ class NearPoints {
 
 std::vector<Index> weldNear(const std::vector<Vec3d>& points, const std::vector<bool>& used,
                             double tolerance) {
-  std::vector<Index> target = identity(points.size());
+  std::vector<Index> target = numbered(points.size());
   NearPoints stayed(points, tolerance);
   for (Index v = 0; v < points.size(); ++v) {
     if (!used[v]) continue;

@@ -2,13 +2,13 @@
 
 #include "libvox/subdivide/colored_surface.h"
 
+#include "libvox/core/numbered.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
 #include "libvox/subdivide/strip.h"
 #include "libvox/subdivide/vertex_patch.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace vox {
@@ -203,8 +203,7 @@ ColoredLevel firstColoredLevel(const ColoredLevel& base) {
   SubdivisionLevel corners{{}, base.level.adjacency, base.level.boundary};
   corners.mesh.points = base.colors;
   corners.mesh.faceOffsets = base.level.mesh.faceOffsets;
-  corners.mesh.faceVertices.resize(base.colors.size());  // each corner a point of its own
-  std::iota(corners.mesh.faceVertices.begin(), corners.mesh.faceVertices.end(), 0);
+  corners.mesh.faceVertices = numbered(base.colors.size());  // each corner a point of its own
   return {nextLevel(base.level, imageVertices(base.level)), imageVertices(corners)};
 }
 

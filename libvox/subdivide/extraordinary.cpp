@@ -3,6 +3,7 @@
 #include "libvox/subdivide/extraordinary.h"
 
 #include "libvox/core/error.h"
+#include "libvox/mesh/chaikin.h"
 #include "libvox/subdivide/stop.h"
 
 #include <algorithm>
@@ -10,10 +11,6 @@
 
 namespace vox {
 namespace {
-
-Vec3d middle(const Vec3d& a, const Vec3d& b) {
-  return (a + b) / 2.0;
-}
 
 double faceDiameter(const ExtraordinaryFace& face, std::vector<Vec3d>& work) {
   if (!face.mirrored()) return diameter(face.inner);
@@ -131,20 +128,20 @@ void ExtraordinarySubdivision::run(ExtraordinaryFace& face, int level, SurfaceSi
 }
 
 TriangleImages::TriangleImages(const Vec3d& at, const Vec3d& start, const Vec3d& end)
-    : u((2.0 * at + start + end) / 4.0),
-      mStart((3.0 * start + end) / 4.0),
-      mEnd((start + 3.0 * end) / 4.0) {}
+    : u((2.0 * at + start + end) / 4.0), mStart(chaikin(start, end)), mEnd(chaikin(end, start)) {}
+
+void TriangleImages::setK(VertexSplit& split) const {
+  split.k0 = u;
+  split.kRight = mirrored(u, mStart);
+  split.kLeft = mirrored(u, mEnd);
+}
 
 VertexSplit BoundaryCorner::split() const {
-  const auto mirror = [](const Vec3d& p, const Vec3d& m) -> Vec3d { return 2.0 * m - p; };
-  const TriangleImages t(u, mStart, mEnd);
   VertexSplit split;
   split.setF(quadImages(u, right, opposite, left));
-  split.r = quadImages(u, right, mirror(right, mRight), mirror(u, mStart));
-  split.l = quadImages(u, left, mirror(left, mLeft), mirror(u, mEnd));
-  split.k0 = t.u;
-  split.kRight = mirror(t.u, t.mStart);
-  split.kLeft = mirror(t.u, t.mEnd);
+  split.r = quadImages(u, right, mirrored(right, mRight), mirrored(u, mStart));
+  split.l = quadImages(u, left, mirrored(left, mLeft), mirrored(u, mEnd));
+  TriangleImages(u, mStart, mEnd).setK(split);
   return split;
 }
 
@@ -155,9 +152,9 @@ BoundaryCorner BoundaryCorner::below(const VertexSplit& split) const {
           t.mStart,
           t.mEnd,
           split.r[0],
-          (3.0 * mStart + mRight) / 4.0,
+          chaikin(mStart, mRight),
           split.l[0],
-          (3.0 * mEnd + mLeft) / 4.0,
+          chaikin(mEnd, mLeft),
           split.f0};
 }
 

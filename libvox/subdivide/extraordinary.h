@@ -76,6 +76,8 @@ struct BoundaryCorner {
 struct TriangleImages {
   Vec3d u, mStart, mEnd;
   TriangleImages(const Vec3d& u, const Vec3d& mStart, const Vec3d& mEnd);
+  /// T as the K of u, with the mirror images of its child beyond the boundary.
+  void setK(VertexSplit& split) const;
 };
 
 /// Subdivides u, a vertex of `level`, until it is fine enough.

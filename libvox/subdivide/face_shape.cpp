@@ -2,6 +2,7 @@
 
 #include "libvox/subdivide/face_shape.h"
 
+#include "libvox/mesh/chaikin.h"
 #include "libvox/subdivide/stop.h"
 
 #include <Eigen/Geometry>
@@ -15,13 +16,13 @@ namespace {
 
 /// Of the real corners and the two points where the mirror cuts the polygon.
 double realDiameter(std::span<const Vec3d> corners, std::size_t real) {
-  Vec3d low = (corners.front() + corners.back()) / 2.0;
+  Vec3d low = middle(corners.front(), corners.back());
   Vec3d high = low;
   const auto add = [&](const Vec3d& p) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   };
-  if (real < corners.size()) add((corners[real - 1] + corners[real]) / 2.0);
+  if (real < corners.size()) add(middle(corners[real - 1], corners[real]));
   for (const Vec3d& corner : corners.first(real)) add(corner);
   return (high - low).maxCoeff();
 }

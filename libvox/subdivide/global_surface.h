@@ -3,7 +3,6 @@
 #include "libvox/mesh/patch.h"
 #include "libvox/subdivide/level.h"
 
-#include <cstdint>
 #include <functional>
 
 namespace vox {

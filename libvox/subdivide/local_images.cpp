@@ -2,24 +2,13 @@
 
 #include "libvox/subdivide/local_images.h"
 
+#include "libvox/mesh/chaikin.h"
 #include "libvox/subdivide/stop.h"
 #include "libvox/subdivide/strip.h"
 
 #include <algorithm>
-#include <array>
 
 namespace vox {
-namespace {
-
-Vec3d chaikin(const Vec3d& near, const Vec3d& far) {
-  return (3.0 * near + far) / 4.0;
-}
-
-Vec3d mirror(const Vec3d& point, const Vec3d& middle) {
-  return 2.0 * middle - point;
-}
-
-}  // namespace
 
 LocalImages::LocalImages(const SubdivisionLevel& base)
     : base_(base),
@@ -134,16 +123,16 @@ void LocalImages::closeFan(Star& star) {
   if (star.fan == 1) return;
 
   star.size = 2 * star.fan;
-  const Vec3d c = (star.mStart + star.mEnd) / 2.0;
+  const Vec3d c = middle(star.mStart, star.mEnd);
   const Vec3d d = (star.mStart - star.mEnd) / 2.0;
   const std::vector<StripWeight> weights = stripWeights(star.fan);
   // Next to the boundary with the same bits as in the faces across its edges.
-  const auto middle = [&](Index i) -> Vec3d {
+  const auto centre = [&](Index i) -> Vec3d {
     if (i == 0) return star.mStart;
     return i + 1 == star.fan ? star.mEnd : Vec3d(c + weights[i].ratio * d);
   };
   for (Index i = star.fan; i-- > 0;)
-    starPoints_.push_back(mirror(starPoints_[star.begin + i], middle(i)));
+    starPoints_.push_back(mirrored(starPoints_[star.begin + i], centre(i)));
 }
 
 /// All faces around own vertices are known.
@@ -174,8 +163,8 @@ void LocalImages::mirrorEdge(Index slot, Index next, Index corner) {
   const Vec3d near = chaikin(v, w);
   const Vec3d far = chaikin(w, v);
   EdgeFace& edge = edges_[slot];
-  edge.near = mirror(images_[slot], near);
-  edge.far = mirror(images_[next], far);
+  edge.near = mirrored(images_[slot], near);
+  edge.far = mirrored(images_[next], far);
   edge.diameter = diameter(images_[slot], images_[next], near, far);
 }
 

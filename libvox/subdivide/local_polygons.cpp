@@ -328,16 +328,4 @@ void LocalPolygons::emitStar(const Corner& c, PolygonPieces& pieces) {
   pieces.addPolygon(row_);
 }
 
-std::vector<std::uint8_t> regularCorners(const SubdivisionLevel& base) {
-  const Index corners = base.mesh.cornerCount();
-  std::vector<std::uint8_t> regular(corners);
-  for (Index c = 0; c < corners; ++c) {
-    if (base.mesh.faceSize(base.adjacency.cornerFace[c]) != 4) continue;
-    const OneRing ring = oneRing(base.mesh, base.adjacency, c);
-    const std::size_t half = base.boundary == BoundaryStage::kExtend ? 2 : ring.corners.size();
-    regular[c] = ring.corners.size() == (ring.closed ? 4 : half);
-  }
-  return regular;
-}
-
 }  // namespace vox

@@ -69,8 +69,4 @@ class LocalPolygons {
   PointRow row_;
 };
 
-/// Whether the level-1 vertex of each corner of a mesh is regular: of others, depths must be the
-/// same along u and v.
-std::vector<std::uint8_t> regularCorners(const SubdivisionLevel& base);
-
 }  // namespace vox

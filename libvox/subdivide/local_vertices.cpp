@@ -2,7 +2,7 @@
 
 #include "libvox/subdivide/local_vertices.h"
 
-#include <algorithm>
+#include "libvox/mesh/chaikin.h"
 
 namespace vox {
 
@@ -90,6 +90,13 @@ void LocalVertices::prepareStars() {
     faces[s].inner.assign(points.begin(), points.end());
     faces[s].real = star.fan;
   }
+  surroundStars(faces);
+  for (std::size_t s = 0; s < stars.size(); ++s)
+    if (!faces[s].inner.empty()) starRings_[s].start(std::move(faces[s]));
+}
+
+/// What the faces of the submesh put around the stars that are no quads.
+void LocalVertices::surroundStars(std::vector<ExtraordinaryFace>& faces) const {
   Index slot = 0;
   for (const Index f : images_.faces()) {
     const Index size = images_.base().mesh.faceSize(f);
@@ -112,8 +119,6 @@ void LocalVertices::prepareStars() {
     }
     slot += size;
   }
-  for (std::size_t s = 0; s < stars.size(); ++s)
-    if (!faces[s].inner.empty()) starRings_[s].start(std::move(faces[s]));
 }
 
 Patch LocalVertices::patchAt(const Corner& c) const {
@@ -139,16 +144,14 @@ void LocalVertices::splitK(const LocalImages::Star& star, Index number, Index pl
   if (!split.hasK) return;
   if (star.size == 1) {
     const TriangleImages t(vertex.at, star.mStart, star.mEnd);
-    split.k0 = t.u;
-    split.kRight = 2.0 * t.mStart - t.u;
-    split.kLeft = 2.0 * t.mEnd - t.u;
+    t.setK(split);
     vertex.corner = {split.k0,
                      t.mStart,
                      t.mEnd,
                      split.r[0],
-                     (split.r[0] + split.r[3]) / 2.0,
+                     middle(split.r[0], split.r[3]),
                      split.l[0],
-                     (split.l[0] + split.l[3]) / 2.0,
+                     middle(split.l[0], split.l[3]),
                      split.f0};
     return;
   }

@@ -77,6 +77,7 @@ class LocalVertices {
   void addFansFrom(std::span<const Index> faces);
   void addNeighbour(Index face);
   void prepareStars();
+  void surroundStars(std::vector<ExtraordinaryFace>& faces) const;
   Index sizeOfK(const LocalImages::Star& star) const {
     return star.closed || images_.extends() ? star.size : 4;
   }

@@ -4,6 +4,7 @@
 
 #include "libvox/core/parallel.h"
 #include "libvox/core/unit_root.h"
+#include "libvox/mesh/chaikin.h"
 
 namespace vox {
 namespace {
@@ -53,7 +54,7 @@ void imageOfInnerTwo(const Strip& strip, std::vector<Vec3d>& image) {
 
 void imageOfInner(const Strip& strip, std::span<const StripWeight> weights,
                   std::vector<Vec3d>& image) {
-  const Vec3d c = (strip.at(strip.first()) + strip.at(strip.last())) / 2.0;
+  const Vec3d c = middle(strip.at(strip.first()), strip.at(strip.last()));
   const Vec3d d = (strip.at(strip.first()) - strip.at(strip.last())) / 2.0;
   const auto m = static_cast<Index>(weights.size());
   const auto offset = [&](Index i) -> Vec3d {
@@ -82,8 +83,8 @@ void chaikinPoints(const PolygonMesh& mesh, const Adjacency& adjacency,
     const Index c = boundary[k];
     const Vec3d& v = mesh.points[mesh.faceVertices[c]];
     const Vec3d& w = mesh.points[mesh.faceVertices[nextCorner(mesh, adjacency, c)]];
-    points[2 * k] = (3.0 * v + w) / 4.0;
-    points[2 * k + 1] = (v + 3.0 * w) / 4.0;
+    points[2 * k] = chaikin(v, w);
+    points[2 * k + 1] = chaikin(w, v);
   });
 }
 
@@ -108,8 +109,8 @@ void imageOfStrip(const PolygonMesh& mesh, Index f, Index boundaryCorner,
   const Strip strip(mesh, f, boundaryCorner);
   const Vec3d& first = strip.at(strip.first());
   const Vec3d& last = strip.at(strip.last());
-  image[strip.first()] = (3.0 * first + last) / 4.0;
-  image[strip.last()] = (first + 3.0 * last) / 4.0;
+  image[strip.first()] = chaikin(first, last);
+  image[strip.last()] = chaikin(last, first);
   if (strip.inner() == 1)
     imageOfInnerOne(strip, image);
   else if (strip.inner() == 2)

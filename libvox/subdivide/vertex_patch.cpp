@@ -2,6 +2,7 @@
 
 #include "libvox/subdivide/vertex_patch.h"
 
+#include "libvox/mesh/chaikin.h"
 #include "libvox/subdivide/stop.h"
 
 #include <algorithm>
@@ -27,8 +28,8 @@ std::array<Vec3d, 4> quadFrom(const SubdivisionLevel& level, Index corner,
     if (level.adjacency.twin[corners[i]] != kNone) continue;
     const std::size_t start = i;
     const std::size_t end = (i + 1) % 4;
-    points[start] = 2.0 * points[start] - points[(start + 3) % 4];
-    points[end] = 2.0 * points[end] - points[(end + 1) % 4];
+    points[start] = mirrored(points[(start + 3) % 4], points[start]);
+    points[end] = mirrored(points[(end + 1) % 4], points[end]);
   }
   return points;
 }

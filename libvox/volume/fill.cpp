@@ -9,7 +9,6 @@
 #include "libvox/volume/leaf_regions.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "libvox/grid/surface_grid.h"
+#include "libvox/grid/merge_leaf.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace vox {

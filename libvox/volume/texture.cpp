@@ -6,8 +6,8 @@
 #include "libvox/volume/noise.h"
 #include "libvox/volume/patterns.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vox {
 namespace {

@@ -1,540 +1,26 @@
-// Triangle scan conversion (Cohen, Kaufman & Wang 1994, section 6), exact in integers.
-//
-// A triangle meets a box iff no axis separates them; the axes to try are those of the box, the
-// normal of the triangle, and the cross products of box axes and edges, i.e. the edge normals of
-// the three axis-aligned projections. This holds for degenerate triangles too, and for boxes that
-// are segments along an axis. For the box of a voxel each of these tests is a linear inequality in
-// its integer centre, so every one bounds an interval of voxels along a row or column. The
-// intervals of the projections depend on one coordinate only and are tabulated; what is left per
-// column is the interval of the plane.
+// Triangles to voxels: small ones a chunk of blocks at a time through the vector kernel, others one
+// by one.
 
 #include "libvox/voxelize/scan.h"
 
-#include "libvox/core/error.h"
+#include "libvox/voxelize/block_sink.h"
+#include "libvox/voxelize/scan_large.h"
 #include "libvox/voxelize/scan_small.h"
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace vox::detail {
 namespace {
 
-__extension__ using Int128 = __int128;
-
-constexpr std::int64_t kUnit = 65536;  // lattice steps per voxel
-constexpr std::int64_t kHalf = kUnit / 2;
-constexpr int kHalfLog2 = 15;
-static_assert(kScanLattice * kUnit == 1);
-
-/// Up to this extent, in lattice steps, 64 bits hold every term: with n <= 2 extent^2 the normal
-/// and c <= extent / kUnit + 2 a centre, 2 n.c + n.(1, 1, 1) < 2^63.
-constexpr std::int64_t kExtent64 = std::int64_t{512} * kUnit;
-/// The same for 128 bits.
-constexpr std::int64_t kExtent128 = (std::int64_t{1} << 30) * kUnit;
-constexpr double kLargestCoordinate = 1 << 30;
-
-/// Columns are scanned in tiles of this side, whose tables fit the stack whatever the triangle.
-constexpr int kTile = 256;
-
-using Lattice = std::array<std::int64_t, 3>;
-
-template <class Int>
-Int floorDiv(Int a, Int positive) {
-  const Int quotient = a / positive;
-  return quotient - (a % positive < 0);
-}
-
-template <class Int>
-Int magnitude(Int x) {
-  return x < 0 ? -x : x;
-}
-
-/// Voxels [lo, hi] in a row; none if lo > hi.
-struct Interval {
-  std::int32_t lo, hi;  // left as they are in tables, of which triangles mostly use a small part
-
-  bool contains(std::int32_t x) const { return (lo <= x) & (x <= hi); }
-  bool empty() const { return lo > hi; }
-  std::size_t size() const { return static_cast<std::size_t>(hi - lo + 1); }
-  Interval common(Interval other) const { return {std::max(lo, other.lo), std::min(hi, other.hi)}; }
-  Interval hull(Interval other) const {
-    if (empty() || other.empty()) return empty() ? other : *this;
-    return {std::min(lo, other.lo), std::max(hi, other.hi)};
-  }
-};
-constexpr Interval kNothing = {1, 0};
-
-/// Centres whose segment of half width pad / 2 meets [min, max] (lattice steps).
-Interval voxelsAcross(std::int64_t min, std::int64_t max, int pad) {
-  return {static_cast<std::int32_t>(-floorDiv(pad * kHalf - min, kUnit)),
-          static_cast<std::int32_t>(floorDiv(max + pad * kHalf, kUnit))};
-}
-
-/// floor((start + i step) / divisor) for i = 0, 1, 2, ...
-template <class Int>
-struct FloorLine {
-  FloorLine(Int start, Int step, Int positive)
-      : floor(floorDiv(start, positive)),
-        rest(start - floor * positive),
-        stepFloor(floorDiv(step, positive)),
-        stepRest(step - stepFloor * positive),
-        divisor(positive) {}
-
-  void next() {
-    rest += stepRest;
-    const Int carry = -Int{rest >= divisor};  // all ones or none: a branch would be mispredicted
-    rest -= divisor & carry;
-    floor += stepFloor - carry;
-  }
-
-  Int floor, rest, stepFloor, stepRest, divisor;
-};
-
-/// The triangle seen along one axis. Centre (a, b) with a box of widths padA, padB passes edge i
-/// iff 2 A a + 2 B b + padA |A| + padB |B| >= level. In a projection that is a segment, the edges
-/// point both ways and bound it on both sides.
-template <class Int>
-class Projection {
- public:
-  Projection(const std::array<Lattice, 3>& corners, int axisA, int axisB) {
-    const auto a = [&](int i) { return Int{corners[i % 3][axisA]}; };
-    const auto b = [&](int i) { return Int{corners[i % 3][axisB]}; };
-    const Int twiceArea = (a(1) - a(0)) * (b(2) - b(0)) - (b(1) - b(0)) * (a(2) - a(0));
-    const Int sign = twiceArea < 0 ? -1 : 1;
-    for (int i = 0; i < 3; ++i) {
-      const Int normalA = sign * (b(i) - b(i + 1));
-      const Int normalB = sign * (a(i + 1) - a(i));
-      const Int offset = normalA * a(i) + normalB * b(i);
-      edges_[i] = {normalA, normalB, -(-offset >> kHalfLog2)};
-    }
-    const auto [lowA, highA] =
-        std::minmax({corners[0][axisA], corners[1][axisA], corners[2][axisA]});
-    const auto [lowB, highB] =
-        std::minmax({corners[0][axisB], corners[1][axisB], corners[2][axisB]});
-    rangeA_ = {lowA, highA};
-    rangeB_ = {lowB, highB};
-  }
-
-  /// For rows b = firstB, firstB + 1, ...: the a whose boxes are not separated in this projection.
-  void slice(int padA, int padB, std::int32_t firstB, std::span<Interval> rows) const;
-
- private:
-  struct Edge {
-    Int normalA, normalB, level;
-  };
-  std::array<Edge, 3> edges_;
-  std::pair<std::int64_t, std::int64_t> rangeA_, rangeB_;
-};
-
-template <class Int>
-void Projection<Int>::slice(int padA, int padB, std::int32_t firstB,
-                            std::span<Interval> rows) const {
-  const Interval acrossA = voxelsAcross(rangeA_.first, rangeA_.second, padA);
-  Interval acrossB = voxelsAcross(rangeB_.first, rangeB_.second, padB);
-  for (const Edge& edge : edges_) {  // an edge along a bounds rows
-    if (edge.normalA != 0 || edge.normalB == 0) continue;
-    const Int reach = edge.level - padB * magnitude(edge.normalB);
-    const Int bound = floorDiv<Int>(-reach, 2 * magnitude(edge.normalB));
-    if (edge.normalB > 0)
-      acrossB.lo = static_cast<std::int32_t>(std::max<Int>(acrossB.lo, -bound));
-    else
-      acrossB.hi = static_cast<std::int32_t>(std::min<Int>(acrossB.hi, bound));
-  }
-
-  const std::int32_t end = firstB + static_cast<std::int32_t>(rows.size());
-  const std::int32_t from = std::clamp(acrossB.lo, firstB, end);
-  const std::int32_t to = std::clamp(acrossB.hi < end ? acrossB.hi + 1 : end, from, end);
-  std::fill(rows.begin(), rows.begin() + (from - firstB), kNothing);
-  std::fill(rows.begin() + (to - firstB), rows.end(), kNothing);
-  const auto met =
-      rows.subspan(static_cast<std::size_t>(from - firstB), static_cast<std::size_t>(to - from));
-  std::fill(met.begin(), met.end(), acrossA);
-  if (met.empty()) return;
-  for (const Edge& edge : edges_) {
-    if (edge.normalA == 0) continue;
-    // 2 |A| (+-a) >= reach - 2 B b
-    const Int width = 2 * magnitude(edge.normalA);
-    const Int reach = edge.level - padA * magnitude(edge.normalA) - padB * magnitude(edge.normalB);
-    FloorLine<Int> line(2 * edge.normalB * from - reach, 2 * edge.normalB, width);
-    if (edge.normalA > 0)
-      for (Interval& row : met) {
-        row.lo = static_cast<std::int32_t>(std::max<Int>(row.lo, -line.floor));
-        line.next();
-      }
-    else
-      for (Interval& row : met) {
-        row.hi = static_cast<std::int32_t>(std::min<Int>(row.hi, line.floor));
-        line.next();
-      }
-  }
-}
-
-/// Collects blocks and hands them on many at a time.
-class Sink {
- public:
-  Sink(EmitBlocks emit, void* visit) : emit_(emit), visit_(visit) {}
-
-  /// A place for `count` blocks, of which `take` keeps some.
-  VoxelBlock* room(std::size_t count) {
-    if (filled_ + count > blocks_.size()) flush();
-    return blocks_.data() + filled_;
-  }
-  void take(std::size_t count) { filled_ += count; }
-
-  void flush() {
-    emit_(visit_, {blocks_.data(), filled_});
-    filled_ = 0;
-  }
-
- private:
-  EmitBlocks emit_;
-  void* visit_;
-  std::size_t filled_ = 0;
-  std::array<VoxelBlock, 512> blocks_;
-};
-
-/// Corners on the lattice, relative to the voxel that holds the first one.
-struct Snapped {
-  std::array<std::int32_t, 3> origin;
-  std::array<Lattice, 3> corners;
-  std::int64_t extent;
-};
-
-Snapped snap(std::span<const Vec3d, 3> corners, Index triangle) {
-  Snapped snapped{};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double x = corners[i][axis];
-      if (!(std::abs(x) <= kLargestCoordinate))
-        throw LimitError("triangle " + std::to_string(triangle) + " has coordinate " +
-                         std::to_string(x) + ", in voxels; the limit is 2^30");
-      snapped.corners[i][axis] = std::llrint(x * kUnit);
-    }
-    const std::int64_t voxel = floorDiv(snapped.corners[0][axis] + kHalf, kUnit);
-    snapped.origin[axis] = static_cast<std::int32_t>(voxel);
-    for (Lattice& corner : snapped.corners) corner[axis] -= voxel * kUnit;
-    const auto [low, high] =
-        std::minmax({snapped.corners[0][axis], snapped.corners[1][axis], snapped.corners[2][axis]});
-    snapped.extent = std::max(snapped.extent, high - low);
-  }
-  if (snapped.extent > kExtent128)
-    throw LimitError("triangle " + std::to_string(triangle) +
-                     " is longer than 2^30 voxels along an axis");
-  return snapped;
-}
-
-template <class Int>
-int largestAxis(const std::array<Int, 3>& v) {
-  int largest = 2;
-  for (const int axis : {1, 0})
-    if (magnitude(v[axis]) > magnitude(v[largest])) largest = axis;
-  return largest;
-}
-
-/// Normal of a plane through a triangle; through a segment or point, of one that it faces. Not 0.
-template <class Int>
-std::array<Int, 3> planeNormal(const std::array<Lattice, 3>& corners) {
-  std::array<Int, 3> normal;
-  std::array<std::array<Int, 3>, 3> edges;
-  for (int i = 0; i < 3; ++i)
-    for (int axis = 0; axis < 3; ++axis)
-      edges[i][axis] = Int{corners[(i + 1) % 3][axis]} - corners[i][axis];
-  for (int axis = 0; axis < 3; ++axis) {
-    const int a = (axis + 1) % 3;
-    const int b = (axis + 2) % 3;
-    normal[axis] = edges[0][a] * edges[1][b] - edges[0][b] * edges[1][a];
-  }
-  if (normal != std::array<Int, 3>{}) return normal;
-
-  // A segment or point: the normal that lies in the plane of the longest and the shortest axis.
-  std::array<Int, 3> along = edges[0];
-  for (const auto& edge : edges)
-    if (magnitude(edge[largestAxis(edge)]) > magnitude(along[largestAxis(along)])) along = edge;
-  const int longest = largestAxis(along);
-  int shortest = (longest + 1) % 3;
-  if (magnitude(along[(longest + 2) % 3]) < magnitude(along[shortest]))
-    shortest = (longest + 2) % 3;
-  normal[longest] = -along[shortest];
-  normal[shortest] = along[longest] == 0 ? Int{1} : along[longest];
-  return normal;
-}
-
-/// Writes runs of voxels along axis w, of columns in one row along u, as blocks. A local copy keeps
-/// its members in registers: no block can overlap it.
-class RowWriter {
- public:
-  RowWriter(const std::array<int, 3>& axes, const std::array<std::int32_t, 3>& origin,
-            Index triangle)
-      : u_(axes[0]),
-        v_(axes[1]),
-        w_(axes[2]),
-        originU_(origin[u_]),
-        originW_(origin[w_]),
-        pattern_{origin, triangle, 1} {
-    const int stride = 4 - 2 * w_;  // log2 of the bits from voxel to voxel
-    for (int count = 0; count < 4; ++count)
-      runs_[count + 1] = runs_[count] | std::uint64_t{1} << (count << stride);
-  }
-
-  RowWriter inRow(std::int32_t v) const {
-    RowWriter writer = *this;
-    writer.pattern_.origin[v_] += v;
-    return writer;
-  }
-
-  /// Voxel (u, v, w).
-  void one(VoxelBlock& block, std::int32_t u, std::int32_t w) const {
-    block = pattern_;
-    block.origin[u_] = originU_ + u;
-    block.origin[w_] = originW_ + w;
-  }
-
-  /// `count` voxels (0 to 4) from (u, v, w) on.
-  void run(VoxelBlock& block, std::int32_t u, std::int32_t w, int count) const {
-    one(block, u, w);
-    block.voxels = runs_[count];
-  }
-
- private:
-  int u_, v_, w_;
-  std::int32_t originU_, originW_;
-  VoxelBlock pattern_;
-  std::array<std::uint64_t, 5> runs_{};
-};
-
-/// One triangle, seen along axis w, which it faces most: within a column along w the plane rises by
-/// two voxels at most, so that a column has at most four black voxels. Rows run along u.
-template <class Int>
-class TriangleScan {
- public:
-  TriangleScan(const Snapped& snapped, Index triangle, Sink& sink);
-
-  void scan(Separation separation) {
-    for (std::int64_t part = 0; part < partCount(); ++part) scanPart(part, separation);
-  }
-
-  /// Parts are tiles of rows.
-  std::int64_t partCount() const { return (std::int64_t{rows_.hi} - rows_.lo + kTile) / kTile; }
-  void scanPart(std::int64_t part, Separation separation) {
-    const auto v = static_cast<std::int32_t>(rows_.lo + part * kTile);
-    const auto count = static_cast<std::size_t>(std::min(kTile, rows_.hi - v + 1));
-    if (separation == Separation::k26)
-      scanRows26(v, count);
-    else
-      scanRows6(v, count);
-  }
-
- private:
-  using Table = std::array<Interval, kTile>;
-
-  /// Tables of the 6-target. Pads along the axes in the order of the names.
-  struct Tables6 {
-    Table uv00, uv10, uv01, wv00, wu00;
-  };
-
-  void scanRows26(std::int32_t firstV, std::size_t count);
-  void scanRows6(std::int32_t firstV, std::size_t count);
-  void scanRow6(const Tables6& tables, std::int32_t firstU, std::int32_t firstV, std::size_t row,
-                Interval columns);
-  bool black6(const Tables6& tables, std::size_t column, std::size_t row, std::int32_t u,
-              std::int32_t w, Int height) const;
-
-  /// Calls tile(columns) for the tiles along u that cover some rows.
-  template <class Tile>
-  static void forTiles(std::span<const Interval> rows, Tile&& tile) {
-    Interval all = {std::numeric_limits<std::int32_t>::max(),
-                    std::numeric_limits<std::int32_t>::min()};
-    for (const Interval& row : rows)
-      if (!row.empty()) all = {std::min(all.lo, row.lo), std::max(all.hi, row.hi)};
-    for (std::int32_t u = all.lo; u <= all.hi; u += kTile)
-      tile(Interval{u, std::min(all.hi, u + kTile - 1)});
-  }
-
-  /// floor((top - 2 n.(u, v, 0)) / 2 n_w) for u, u + 1, ...: the highest w with 2 n.c <= top.
-  FloorLine<Int> highest(Int top, std::int32_t u, std::int32_t v) const {
-    return {top - 2 * (normalU_ * u + normalV_ * v), -2 * normalU_, 2 * normalW_};
-  }
-
-  Sink& sink_;
-  const std::array<Int, 3> normal_;
-  const int axisW_, axisU_, axisV_;
-  const Projection<Int> uv_, wv_, wu_;
-  const RowWriter writer_;
-  Interval rows_;
-  Int normalU_, normalV_, normalW_;  ///< of the plane; W > 0 and the largest
-  Int sizeU_, sizeV_;                ///< magnitudes
-  /// A box of centre c and half widths t meets the plane iff ceil - t.|n| <= 2 n.c <= floor +
-  /// t.|n|.
-  Int planeFloor_, planeCeil_;
-};
-
-template <class Int>
-TriangleScan<Int>::TriangleScan(const Snapped& snapped, Index triangle, Sink& sink)
-    : sink_(sink),
-      normal_(planeNormal<Int>(snapped.corners)),
-      axisW_(largestAxis(normal_)),
-      axisU_(axisW_ == 2 ? 1 : 2),
-      axisV_(axisW_ == 0 ? 1 : 0),
-      uv_(snapped.corners, axisU_, axisV_),
-      wv_(snapped.corners, axisW_, axisV_),
-      wu_(snapped.corners, axisW_, axisU_),
-      writer_({axisU_, axisV_, axisW_}, snapped.origin, triangle) {
-  const auto [lowV, highV] = std::minmax(
-      {snapped.corners[0][axisV_], snapped.corners[1][axisV_], snapped.corners[2][axisV_]});
-  rows_ = voxelsAcross(lowV, highV, 1);
-
-  const Int sign = normal_[axisW_] < 0 ? -1 : 1;
-  normalU_ = sign * normal_[axisU_];
-  normalV_ = sign * normal_[axisV_];
-  normalW_ = sign * normal_[axisW_];
-  sizeU_ = magnitude(normalU_);
-  sizeV_ = magnitude(normalV_);
-  const Lattice& corner = snapped.corners[0];
-  const Int128 offset = Int128{normalU_} * corner[axisU_] + Int128{normalV_} * corner[axisV_] +
-                        Int128{normalW_} * corner[axisW_];
-  planeFloor_ = static_cast<Int>(offset >> kHalfLog2);
-  planeCeil_ = static_cast<Int>(-(-offset >> kHalfLog2));
-}
-
-template <class Int>
-void TriangleScan<Int>::scanRows26(std::int32_t firstV, std::size_t count) {
-  Table uv, wv, wu;
-  uv_.slice(1, 1, firstV, std::span(uv).first(count));
-  wv_.slice(1, 1, firstV, std::span(wv).first(count));
-
-  // The w of the plane are floor(lowest / 2 n_w), ..., floor((lowest + spread) / 2 n_w).
-  const Int size = sizeU_ + sizeV_ + normalW_;
-  const Int lowest = planeCeil_ - size + 2 * normalW_ - 1;
-  const Int spread = planeFloor_ + size - lowest;
-  forTiles(std::span(uv).first(count), [&](Interval tile) {
-    wu_.slice(1, 1, tile.lo, std::span(wu).first(tile.size()));
-    for (std::size_t row = 0; row < count; ++row) {
-      const Interval columns = tile.common(uv[row]);
-      if (columns.empty()) continue;
-      const auto v = firstV + static_cast<std::int32_t>(row);
-      const RowWriter writer = writer_.inRow(v);
-      FloorLine<Int> line = highest(lowest, columns.lo, v);
-      VoxelBlock* const blocks = sink_.room(kTile);
-      VoxelBlock* block = blocks;
-      for (std::int32_t u = columns.lo; u <= columns.hi; ++u, line.next()) {
-        const Int reach = line.rest + spread;
-        const int more =
-            (reach >= line.divisor) + (reach >= 2 * line.divisor) + (reach >= 3 * line.divisor);
-        const auto low = static_cast<std::int32_t>(line.floor);
-        const Interval run = Interval{low, low + more}.common(wv[row]).common(wu[u - tile.lo]);
-        writer.run(*block++, u, run.lo, run.hi - run.lo + 1);
-      }
-      sink_.take(static_cast<std::size_t>(block - blocks));
-    }
-  });
-}
-
-template <class Int>
-void TriangleScan<Int>::scanRows6(std::int32_t firstV, std::size_t count) {
-  Tables6 tables;
-  const auto rows = [&](Table& table) { return std::span(table).first(count); };
-  uv_.slice(0, 0, firstV, rows(tables.uv00));
-  uv_.slice(1, 0, firstV, rows(tables.uv10));
-  uv_.slice(0, 1, firstV, rows(tables.uv01));
-  wv_.slice(0, 0, firstV, rows(tables.wv00));
-
-  Table hull;
-  for (std::size_t row = 0; row < count; ++row) hull[row] = tables.uv10[row].hull(tables.uv01[row]);
-  forTiles(rows(hull), [&](Interval tile) {
-    wu_.slice(0, 0, tile.lo, std::span(tables.wu00).first(tile.size()));
-    for (std::size_t row = 0; row < count; ++row) {
-      const Interval met = tile.common(hull[row]);
-      if (!met.empty()) scanRow6(tables, tile.lo, firstV, row, met);
-    }
-  });
-}
-
-/// Columns whose centre is in the triangle have the voxels next to the plane, mostly one. Around
-/// them, the segments along u and v may meet the triangle, at the same voxels: the plane rises by
-/// less than the half voxel along them.
-template <class Int>
-void TriangleScan<Int>::scanRow6(const Tables6& tables, std::int32_t firstU, std::int32_t firstV,
-                                 std::size_t row, Interval columns) {
-  const auto v = firstV + static_cast<std::int32_t>(row);
-  const RowWriter writer = writer_.inRow(v);
-  const bool open = planeFloor_ != planeCeil_;
-  FloorLine<Int> line = highest(planeCeil_ + normalW_ - 1, columns.lo, v);
-  VoxelBlock* const blocks = sink_.room(2 * kTile);
-  VoxelBlock* block = blocks;
-
-  // A plane halfway between two centres has both.
-  const auto tied = [&] { return !open && line.rest == line.divisor - 1; };
-  const auto tryUntil = [&](std::int32_t& u, std::int32_t end) {
-    for (; u < end; ++u, line.next()) {
-      const auto w = static_cast<std::int32_t>(line.floor);
-      const auto column = static_cast<std::size_t>(u - firstU);
-      const Int height = normalW_ - 1 - line.rest;
-      writer.one(*block, u, w);
-      block += black6(tables, column, row, u, w, height);
-      if (!tied()) continue;
-      writer.one(*block, u, w + 1);
-      block += black6(tables, column, row, u, w + 1, height + 2 * normalW_);
-    }
-  };
-
-  std::int32_t u = columns.lo;
-  const Interval inside = columns.common(tables.uv00[row]);
-  if (!inside.empty()) {
-    tryUntil(u, inside.lo);
-    if (open)
-      for (; u <= inside.hi; ++u, line.next())
-        writer.one(*block++, u, static_cast<std::int32_t>(line.floor));
-    else
-      for (; u <= inside.hi; ++u, line.next())
-        writer.run(*block++, u, static_cast<std::int32_t>(line.floor), 1 + tied());
-  }
-  tryUntil(u, columns.hi + 1);
-  sink_.take(static_cast<std::size_t>(block - blocks));
-}
-
-/// For voxel (u, v, w) whose 2 n.c is planeCeil + height and whose segment along w misses. These
-/// inequalities imply the others: where n has a component along the segment, its line meets the
-/// triangle (wv00, wu00) at a point that the plane tells to be within the segment; where it has
-/// none, the segment is in the plane, which is one to one with uv. Without branches: which of the
-/// inequalities fails is anyone's guess.
-template <class Int>
-bool TriangleScan<Int>::black6(const Tables6& tables, std::size_t column, std::size_t row,
-                               std::int32_t u, std::int32_t w, Int height) const {
-  const auto nearPlane = [&](Int size) {
-    return (-size <= height) & (height + planeCeil_ - planeFloor_ <= size);
-  };
-  const bool alongU =
-      tables.uv10[row].contains(u) & tables.wv00[row].contains(w) & nearPlane(sizeU_);
-  const bool alongV =
-      tables.uv01[row].contains(u) & tables.wu00[column].contains(w) & nearPlane(sizeV_);
-  return alongU | alongV;
-}
-
-/// Calls work with the scan of a triangle.
-template <class Work>
-auto withScan(std::span<const Vec3d, 3> corners, Index triangle, Sink& sink, Work&& work) {
-  const Snapped snapped = snap(corners, triangle);
-  if (snapped.extent <= kExtent64) return work(TriangleScan<std::int64_t>(snapped, triangle, sink));
-  return work(TriangleScan<Int128>(snapped, triangle, sink));
-}
-
-void scanLarge(std::span<const Vec3d, 3> corners, Index triangle, Separation separation,
-               Sink& sink) {
-  withScan(corners, triangle, sink, [&](auto&& scan) { scan.scan(separation); });
-}
-
 /// Feeds the vector kernel, a chunk of blocks at a time.
 class BlockQueue {
  public:
   BlockQueue(std::span<const Vec3d> points, std::span<const std::array<Index, 3>> triangles,
-             Separation separation, Sink& sink)
+             Separation separation, BlockSink& sink)
       : points_(points), triangles_(triangles), separation_(separation), sink_(sink) {}
 
   /// Adds the first block of a triangle; others follow from there.
@@ -568,7 +54,7 @@ class BlockQueue {
   std::span<const Vec3d> points_;
   std::span<const std::array<Index, 3>> triangles_;
   Separation separation_;
-  Sink& sink_;
+  BlockSink& sink_;
   std::size_t count_ = 0;
   std::array<Block, kScanChunk> blocks_{};
   SmallScan scan_{};
@@ -638,7 +124,7 @@ void BlockQueue::addOthers(std::size_t lane, std::vector<Block>& others) const {
 
 void scanTriangles(std::span<const Vec3d> points, std::span<const std::array<Index, 3>> triangles,
                    Separation separation, EmitBlocks emit, void* visit) {
-  Sink sink(emit, visit);
+  BlockSink sink(emit, visit);
   BlockQueue queue(points, triangles, separation, sink);
   for (std::size_t i = 0; i < triangles.size(); ++i) queue.add(static_cast<Index>(i));
   queue.flush();
@@ -647,15 +133,15 @@ void scanTriangles(std::span<const Vec3d> points, std::span<const std::array<Ind
 
 void scanTriangle(std::span<const Vec3d, 3> corners, Separation separation, EmitBlocks emit,
                   void* visit) {
-  Sink sink(emit, visit);
+  BlockSink sink(emit, visit);
   scanLarge(corners, 0, separation, sink);
   sink.flush();
 }
 
 void scanPart(std::span<const Vec3d, 3> corners, std::int64_t part, Separation separation,
               EmitBlocks emit, void* visit) {
-  Sink sink(emit, visit);
-  withScan(corners, 0, sink, [&](auto&& scan) { scan.scanPart(part, separation); });
+  BlockSink sink(emit, visit);
+  scanLargePart(corners, part, separation, sink);
   sink.flush();
 }
 
@@ -664,8 +150,7 @@ void scanPart(std::span<const Vec3d, 3> corners, std::int64_t part, Separation s
 namespace vox {
 
 std::int64_t scanPartCount(std::span<const Vec3d, 3> corners) {
-  detail::Sink unused([](void*, std::span<const VoxelBlock>) {}, nullptr);
-  return detail::withScan(corners, 0, unused, [](auto&& scan) { return scan.partCount(); });
+  return detail::largePartCount(corners);
 }
 
 }  // namespace vox

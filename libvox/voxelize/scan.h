@@ -65,9 +65,8 @@ void emitTo(void* visit, std::span<const VoxelBlock> blocks) {
 ///
 /// Why there are no tunnels. Let S be the union of triangles that share corners: it snaps to a
 /// surface without gaps, at most half a lattice step (2^-17 voxel, per coordinate) from S.
-///   6:  the step from a voxel to its neighbour is half a segment of each; where the snapped
-///   surface
-///       meets it, one of the two is black. A path of white voxels, face to face, never meets it.
+///   6:  the step from a voxel to its neighbour is half a segment of each; where the surface meets
+///       it, one of the two is black. A path of white voxels, face to face, never meets it.
 ///   26: the closed cubes of neighbours share a point, and no white cube meets the snapped surface;
 ///       so neither does the union of the cubes of a white path.
 ///
@@ -78,8 +77,7 @@ void emitTo(void* visit, std::span<const VoxelBlock> blocks) {
 /// @param points     index space, unit: voxels; |coordinate| <= 2^30
 /// @param triangles  corners as indices into points; VoxelBlock::triangle counts in this list
 /// @throws LimitError  a coordinate is larger or not finite, or a triangle longer than 2^30 along
-/// an
-///                     axis; triangles before it may have been visited
+///   an axis; triangles before it may have been visited
 ///
 /// Thread-safe; assumes the default rounding mode of the processor. Source: paper section 6; the
 /// targets of Cohen-Or & Kaufman 1995, "Fundamentals of surface voxelization"; the separating axis

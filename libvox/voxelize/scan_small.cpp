@@ -1,9 +1,9 @@
 // Triangle scan conversion with one block of 4 x 4 x 4 voxels per vector lane.
 //
-// The inequalities are those of scan.cpp. Everything is a whole number below 2^53, kept in doubles:
-// exact, and the same on every processor. A triangle is at most 16 voxels across, 2^20 lattice
-// steps, so normals (areas of projections) stay within 2^40. Corners are within 2^20.1 steps of the
-// block, and the largest terms, the two parts of n.corner, within 3 * 2^50.1.
+// The inequalities are those of scan_large.cpp. Everything is a whole number below 2^53, kept in
+// doubles: exact, and the same on every processor. A triangle is at most 16 voxels across, 2^20
+// lattice steps, so normals (areas of projections) stay within 2^40. Corners are within 2^20.1
+// steps of the block, and the largest terms, the two parts of n.corner, within 3 * 2^50.1.
 
 #include "libvox/voxelize/scan_small.h"
 

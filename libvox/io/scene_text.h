@@ -1,0 +1,79 @@
+#pragma once
+
+#include "libvox/core/error.h"
+#include "libvox/core/hash.h"
+#include "libvox/core/names.h"
+#include "libvox/core/types.h"
+#include "libvox/io/text_scanner.h"
+#include "libvox/mesh/stop_rule.h"
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace vox {
+
+/// A TOML document that knows its file name, for messages.
+struct SceneText {
+  std::filesystem::path file;
+  toml::table root;
+  ContentHash hash;  ///< of this file and the meshes it names
+
+  /// The document in the content of a file.
+  /// @throws InputError  it is not TOML, or nested too deeply for the parser
+  SceneText(const std::filesystem::path& name, std::string_view content);
+
+  [[noreturn]] void fail(const toml::source_region& at, const std::string& what) const {
+    throw InputError(file.string() + ":" + std::to_string(at.begin.line) + ":" +
+                     std::to_string(at.begin.column) + ": " + what);
+  }
+  [[noreturn]] void fail(const toml::node& at, const std::string& what) const {
+    fail(at.source(), what);
+  }
+};
+
+/// @param where  the table, for messages
+/// @throws InputError  the table has a key that is not known
+void requireKnownKeys(const SceneText& text, const toml::table& table, const std::string& where,
+                      std::initializer_list<std::string_view> known);
+
+// The value of a node.
+// @throws InputError  it has another type, or lies beyond what is said here
+
+const toml::table& requireTable(const SceneText& text, const toml::node& node,
+                                const std::string& name);
+const toml::array& requireArray(const SceneText& text, const toml::node& node,
+                                const std::string& name);
+/// Without NUL.
+std::string requireString(const SceneText& text, const toml::node& node, const std::string& name);
+bool requireBoolean(const SceneText& text, const toml::node& node, const std::string& name);
+/// Within kMaxCoordinate.
+double requireNumber(const SceneText& text, const toml::node& node, const std::string& name);
+/// From low to high.
+std::int64_t requireInteger(const SceneText& text, const toml::node& node, const std::string& name,
+                            std::int64_t low, std::int64_t high);
+/// Three numbers.
+Vec3d requireVector(const SceneText& text, const toml::node& node, const std::string& name);
+/// "voxel" or { levels = 3, diameter = 4, angle = 5, flatness = 0.1 }, some of them.
+StopRule requireStopRule(const SceneText& text, const toml::node& node);
+
+/// A value by its name, if the table has the key.
+/// @throws InputError  there is none of that name
+template <class Enum, std::size_t N>
+void readNamed(const SceneText& text, const toml::table& table, const char* key,
+               const NameTable<Enum, N>& names, std::optional<Enum>& value) {
+  const auto* node = table.get(key);
+  if (node == nullptr) return;
+  const std::string name = requireString(text, *node, key);
+  value = namedIn(names, name);
+  if (!value)
+    text.fail(*node,
+              std::string(key) + " must be one of " + allNamesIn(names) + ", not " + quote(name));
+}
+
+}  // namespace vox

@@ -1,0 +1,52 @@
+// The work of a conversion, as its progress is told of it beforehand.
+
+#include "libvox/pipeline/plan.h"
+
+#include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/refine.h"
+#include "libvox/pipeline/work.h"
+
+namespace vox {
+namespace {
+
+/// Voxels of a level set beside those of a surface, about.
+constexpr double kVoxelsOfBand = 4;
+
+double workOfWriting(GridKind kind, double area) {
+  switch (kind) {
+    case GridKind::kDensity:
+      return workOfWritingDensity(area);
+    case GridKind::kMask:
+      return workOfWritingMask(area);
+    case GridKind::kSurface:
+      return kVoxelsOfBand * workOfWritingDensity(area);
+    case GridKind::kNormal:
+      return workOfWritingNormals(area);
+    case GridKind::kColor:
+      return workOfWritingColor(area);
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::vector<double> areasOf(const Scene& scene, const GridTransform& transform,
+                            const Progress& progress) {
+  std::vector<double> areas(scene.objects.size(), 0.0);
+  for (std::size_t i = 0; progress.watched() && i < areas.size(); ++i)
+    areas[i] = areaOf(scene.objects[i].mesh) / transform.voxelSize / transform.voxelSize;
+  return areas;
+}
+
+void plan(const Scene& scene, const ConvertOptions& options, std::span<const double> areas,
+          std::span<const GridKind> kinds, Progress& progress) {
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
+    progress.plan(workOfPreparing(object, options.smoothing) +
+                  workOfSurface(areas[i], object.mesh.cornerCount()));
+    for (const GridKind kind : kinds) progress.plan(workOfWriting(kind, areas[i]));
+  }
+  progress.plan(workOfGrids(areas, kinds));
+}
+
+}  // namespace vox

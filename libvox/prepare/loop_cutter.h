@@ -1,0 +1,41 @@
+#pragma once
+
+#include "libvox/core/types.h"
+
+#include <span>
+#include <vector>
+
+namespace vox {
+
+/// Cuts cyclic lists of vertices where they return to a vertex.
+class LoopCutter {
+ public:
+  explicit LoopCutter(Index pointCount) : place_(pointCount, kNone) {}
+
+  /// Calls visit(loop) with the loops of a face, each without repeats of its own. A loop of
+  /// one corner is a repeat (v v), one of two a spike (a b a). Linear in the face.
+  template <class Visit>
+  void cut(std::span<const Index> face, Visit&& visit) {
+    for (const Index v : face) {
+      if (place_[v] != kNone) {
+        visit(std::span<const Index>(path_).subspan(place_[v]));
+        shorten(place_[v]);
+      }
+      place_[v] = static_cast<Index>(path_.size());
+      path_.push_back(v);
+    }
+    visit(std::span<const Index>(path_));
+    shorten(0);
+  }
+
+ private:
+  void shorten(std::size_t size) {
+    for (std::size_t k = size; k < path_.size(); ++k) place_[path_[k]] = kNone;
+    path_.resize(size);
+  }
+
+  std::vector<Index> path_;
+  std::vector<Index> place_;  // of each vertex in the path, or kNone
+};
+
+}  // namespace vox

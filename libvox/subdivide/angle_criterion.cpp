@@ -1,0 +1,83 @@
+// How deep neighbouring faces turn little.
+
+#include "libvox/subdivide/angle_criterion.h"
+
+#include "libvox/subdivide/diameter_criterion.h"
+#include "libvox/subdivide/least_depth.h"
+#include "libvox/subdivide/patch_shape.h"
+#include "libvox/subdivide/sizes.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace vox {
+namespace {
+
+class AngleCriterion : public Criterion {
+ public:
+  explicit AngleCriterion(double limit) : limit_(limit) {}
+
+  int squareDepth(const Patch& partial, int most) const override {
+    const Patch patch = completed(partial);
+    const PatchSteps steps(partial);
+    constexpr int kMostMeasured = 10;  // where so many vertices turn, it is a fold
+    return leastDepth(most, [&](int k) {
+      return steps.sizeBelow(k, k) <= 1 ||
+             (k <= kMostMeasured && largestAngle(patch, std::int64_t{1} << k) <= limit_);
+    });
+  }
+  VertexDepth regularDepth(const Patch& patch, int most) const override {
+    return squareOf(squareDepth(patch, most));
+  }
+  bool fine(const VertexFaces& faces) const override {
+    if (largestDiameter(faces) <= 1) return true;
+    const Vec3d r = shapeOf(faces.r).normal;
+    const Vec3d l = -shapeOf(faces.l).normal;  // runs round the other way
+    double largest = 0;
+    const auto take = [&](bool exist, const Vec3d& a, const Vec3d& b) {
+      if (exist) largest = std::max(largest, angleBetween(a, b));
+    };
+    take(faces.hasR, faces.f.normal, r);
+    take(faces.hasL, faces.f.normal, l);
+    take(faces.hasR && faces.hasK, faces.k.normal, r);
+    take(faces.hasL && faces.hasK, faces.k.normal, l);
+    return largest <= limit_;
+  }
+
+ private:
+  /// Of the faces that touch one of n x n descendants, or more than the limit. The closed form goes
+  /// on for one row beyond them.
+  double largestAngle(const Patch& patch, std::int64_t n) const {
+    std::vector<Vec3d> before, here, normalsBefore, normals;
+    double largest = 0;
+    for (std::int64_t i = -1; i <= n; ++i) {
+      const CurvePoints row = rowOf(patch, PatchWeights(i, n));
+      here.clear();
+      for (std::int64_t j = -1; j <= n; ++j)
+        here.push_back(PatchWeights(j, n)(row[0], row[1], row[2]));
+      normals.clear();
+      for (std::size_t j = 1; j < before.size(); ++j)
+        normals.push_back(normalOf(here[j] - before[j - 1], before[j] - here[j - 1]));
+      for (std::size_t j = 1; j < normals.size(); ++j)
+        largest = std::max(largest, angleBetween(normals[j - 1], normals[j]));
+      for (std::size_t j = 0; j < normalsBefore.size(); ++j)
+        largest = std::max(largest, angleBetween(normalsBefore[j], normals[j]));
+      if (largest > limit_) return largest;
+      std::swap(normals, normalsBefore);
+      std::swap(here, before);
+    }
+    return largest;
+  }
+
+  double limit_;
+};
+
+}  // namespace
+
+std::unique_ptr<Criterion> angleCriterion(double limit) {
+  return std::make_unique<AngleCriterion>(limit);
+}
+
+}  // namespace vox
