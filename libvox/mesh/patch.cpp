@@ -2,6 +2,8 @@
 
 #include "libvox/mesh/patch.h"
 
+#include "libvox/mesh/chaikin.h"
+
 namespace vox {
 
 Patch continued(const Patch& partial) {
@@ -9,10 +11,10 @@ Patch continued(const Patch& partial) {
   if (patch.quadrants == kAllQuadrants) return patch;
   auto& p = patch.points;
   const auto has = [&](unsigned quadrants) { return (partial.quadrants & quadrants) != 0; };
-  if (!has(1U | 2U)) p[0][1] = 2.0 * p[1][1] - p[2][1];
-  if (!has(1U | 4U)) p[1][0] = 2.0 * p[1][1] - p[1][2];
-  if (!has(4U | 8U)) p[2][1] = 2.0 * p[1][1] - p[0][1];
-  if (!has(2U | 8U)) p[1][2] = 2.0 * p[1][1] - p[1][0];
+  if (!has(1U | 2U)) p[0][1] = mirrored(p[2][1], p[1][1]);
+  if (!has(1U | 4U)) p[1][0] = mirrored(p[1][2], p[1][1]);
+  if (!has(4U | 8U)) p[2][1] = mirrored(p[0][1], p[1][1]);
+  if (!has(2U | 8U)) p[1][2] = mirrored(p[1][0], p[1][1]);
   for (unsigned q = 0; q < 4; ++q) {
     const std::size_t u = q & 2U;
     const std::size_t v = 2 * (q & 1U);

@@ -20,7 +20,7 @@ class AngleCriterion : public Criterion {
   explicit AngleCriterion(double limit) : limit_(limit) {}
 
   int squareDepth(const Patch& partial, int most) const override {
-    const Patch patch = completed(partial);
+    const Patch patch = continued(partial);
     const PatchSteps steps(partial);
     constexpr int kMostMeasured = 10;  // where so many vertices turn, it is a fold
     return leastDepth(most, [&](int k) {

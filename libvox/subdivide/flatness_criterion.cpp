@@ -81,10 +81,10 @@ class FlatnessCriterion : public Criterion {
 
   int squareDepth(const Patch& patch, int most) const override {
     constexpr int kMostSplits = 4;
-    return squareDepth(completed(patch), most, kMostSplits);
+    return squareDepth(continued(patch), most, kMostSplits);
   }
   VertexDepth regularDepth(const Patch& partial, int most) const override {
-    const Patch patch = completed(partial);
+    const Patch patch = continued(partial);
     const PatchBends bends(patch);
     const VertexDepth apart =
         leastDepths(most, [&](int u, int v) { return fineBelow(bends, u, v); });

@@ -2,6 +2,7 @@
 
 #include "libvox/voxelize/normal_sampler.h"
 
+#include "libvox/mesh/chaikin.h"
 #include "libvox/voxelize/normal_tile.h"
 #include "libvox/voxelize/voxel_box.h"
 
@@ -22,8 +23,7 @@ std::array<Patch, 2> halvesAlongU(const Patch& patch) {
     const Vec3d& a = patch.points[0][v];
     const Vec3d& b = patch.points[1][v];
     const Vec3d& c = patch.points[2][v];
-    const std::array<Vec3d, 4> fine = {(3.0 * a + b) / 4.0, (a + 3.0 * b) / 4.0,
-                                       (3.0 * b + c) / 4.0, (b + 3.0 * c) / 4.0};
+    const std::array<Vec3d, 4> fine = {chaikin(a, b), chaikin(b, a), chaikin(b, c), chaikin(c, b)};
     for (std::size_t u = 0; u < 3; ++u) {
       halves[0].points[u][v] = fine[u];
       halves[1].points[u][v] = fine[u + 1];

@@ -3,6 +3,7 @@
 #include "libvox/voxelize/vertex_sink.h"
 
 #include "libvox/grid/voxel.h"
+#include "libvox/mesh/chaikin.h"
 #include "libvox/voxelize/tile.h"
 #include "libvox/voxelize/voxel_box.h"
 
@@ -10,7 +11,7 @@ namespace vox {
 namespace {
 
 std::array<Vec3d, 4> refine(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  return {(3.0 * a + b) / 4.0, (a + 3.0 * b) / 4.0, (3.0 * b + c) / 4.0, (b + 3.0 * c) / 4.0};
+  return {chaikin(a, b), chaikin(b, a), chaikin(b, c), chaikin(c, b)};
 }
 
 constexpr std::size_t kMostSmallVertices = std::size_t{1} << (2 * (kLeastTileLevels - 1));
