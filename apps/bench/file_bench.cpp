@@ -127,7 +127,7 @@ void registerFiles() {
         ->UseRealTime();
   };
   for (const GridKind kind : {GridKind::kMask, GridKind::kDensity, GridKind::kNormal}) {
-    const std::string name = gridName(kind);
+    const std::string name = nameIn(kGridNames, kind);
     add("file/write/" + name, writeGrids, kind);
     add("file/rawWrite/" + name, writeBytes, kind);
     add("file/read/" + name, readGrids, kind);
