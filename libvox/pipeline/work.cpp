@@ -22,7 +22,7 @@ double workOfDensity(double area) {
 }
 
 double workOfNormals(double area) {
-  return 500 * area;
+  return 100 * area;
 }
 
 double workOfColor(double area) {
