@@ -191,20 +191,20 @@ TEST_CASE("tiles of normals have the same bits on every instruction set", "[norm
 
 TEST_CASE("samples outside black voxels are of no consequence", "[normals]") {
   openvdb::MaskTree voxels;
-  voxels.setValueOn(Coord(3, 3, 3));
+  voxels.setValueOn(Coord(7, 9, 3));
   VoxelMeans means(voxels);
   NormalSampler sampler(means);
-  Patch patch;  // flat, 8 x 8 voxels
+  Patch patch;  // flat; its vertices lie between 4 and 12
   for (std::size_t u = 0; u < 3; ++u)
     for (std::size_t v = 0; v < 3; ++v)
       patch.points[u][v] = Vec3d(8.0 * static_cast<double>(u), 8.0 * static_cast<double>(v), 3);
   sampler.patch(patch, 4, 4);
   sampler.patch(patch, 4, 4);
   sampler.point({100, 0, 0}, Vec3d::UnitX());
-  sampler.point({3, 3, 3}, Vec3d::Zero());
+  sampler.point({7, 9, 3}, Vec3d::Zero());
   CHECK(means.sumsOf(Coord(96, 0, 0)) == nullptr);
   CHECK_FALSE(means.meanOf(Coord(100, 0, 0)).has_value());
-  const auto mean = means.meanOf(Coord(3, 3, 3));
+  const auto mean = means.meanOf(Coord(7, 9, 3));
   REQUIRE(mean.has_value());
   CHECK((*mean - Vec3d::UnitZ()).norm() < 1e-5);
 }
