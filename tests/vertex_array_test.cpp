@@ -19,6 +19,12 @@ using namespace vox;
 
 namespace {
 
+/// Where the limit point of vertex (i, j) of n x m descendants is.
+Vec3d limitNormal(const Patch& patch, std::int64_t i, std::int64_t n, std::int64_t j,
+                  std::int64_t m) {
+  return LimitNormals(patch, SplinePlace::ofVertex(i, n)).at(SplinePlace::ofVertex(j, m));
+}
+
 SubdivisionLevel prepared(const PolygonMesh& mesh, BoundaryRule rule = BoundaryRule::kExtend) {
   RepairReport report;
   return baseLevel(repair(mesh, {}, report), rule);

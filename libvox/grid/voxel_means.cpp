@@ -72,7 +72,7 @@ VoxelMeans::VoxelMeans(const openvdb::MaskTree& voxels) {
 }
 
 std::uint64_t VoxelMeans::bytesFor(std::uint64_t voxels, std::uint64_t leaves) {
-  constexpr std::uint64_t kPerLeaf = 48;  // of the tables
+  constexpr std::uint64_t kPerLeaf = 256;  // of the tables, at 64 leaves a page
   return voxels * sizeof(Sum) + leaves * kPerLeaf;
 }
 

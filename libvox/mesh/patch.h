@@ -80,7 +80,8 @@ inline Vec3d normalOfTangents(const Vec3d& a, const Vec3d& b) {
   return normal.stableNormalized();
 }
 
-/// Exact normals of the smooth surface of a patch, at one place along u.
+/// Exact normals of the smooth surface of a patch, at one place along u. A patch without some of
+/// its faces must be `continued`.
 class LimitNormals {
  public:
   LimitNormals(const Patch& patch, SplinePlace u) {
@@ -99,13 +100,6 @@ class LimitNormals {
  private:
   CurvePoints values_, slopes_;
 };
-
-/// The normal of the smooth surface where the limit point of vertex (i, j) of N x M descendants is.
-/// A patch without some of its faces must be `continued`.
-inline Vec3d limitNormal(const Patch& patch, std::int64_t i, std::int64_t n, std::int64_t j,
-                         std::int64_t m) {
-  return LimitNormals(patch, SplinePlace::ofVertex(i, n)).at(SplinePlace::ofVertex(j, m));
-}
 
 /// The patch with the points of missing faces put where the surface goes on straight.
 Patch continued(const Patch& partial);

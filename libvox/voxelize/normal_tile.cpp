@@ -19,6 +19,7 @@ namespace vox {
 namespace {
 
 constexpr std::size_t kMostColumns = std::size_t{1} << kMostNormalLevels;
+static_assert(1 << (2 * kMostNormalLevels) <= VoxelMeans::kMostBrickSamples);
 
 /// Weights along v: of the points before and behind for vertices, and for the limit.
 struct ColumnWeights {
