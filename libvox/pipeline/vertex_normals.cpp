@@ -29,24 +29,27 @@ using Samplers = tbb::enumerable_thread_specific<NormalSampler>;
 /// Patches of more levels are shared among threads.
 constexpr int kMostLevelsOfTask = 8;
 
-void samplePatch(const Patch& patch, int rows, int columns, Samplers& samplers) {
+void samplePatch(const Patch& patch, int rows, int columns, const Progress& progress,
+                 Samplers& samplers) {
+  progress.check();
   if (std::max(rows, columns) <= kMostLevelsOfTask)
     return samplers.local().patch(patch, rows, columns);
   const bool turn = rows < columns;
   const auto halves = halvesAlongU(turn ? quarterTurn(patch) : patch);
   forEach(halves.size(), 1, [&](std::size_t half) {
-    samplePatch(halves[half], std::max(rows, columns) - 1, std::min(rows, columns), samplers);
+    samplePatch(halves[half], std::max(rows, columns) - 1, std::min(rows, columns), progress,
+                samplers);
   });
 }
 
 void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
-                  VertexNormals& normals, Samplers& samplers) {
+                  const Progress& progress, VertexNormals& normals, Samplers& samplers) {
   const LevelOneVertex vertex = normals.vertices.at(corner);
   // As many vertices of a patch as blacken voxels: with fewer, voxels would be left out.
   const auto sample = [&](const Patch& partial) {
     const Patch patch = continued(partial);
     const PatchDepth depth = patchDepth(patch);
-    samplePatch(patch, depth.alongU, depth.alongV, samplers);
+    samplePatch(patch, depth.alongU, depth.alongV, progress, samplers);
   };
   if (vertex.regular) return sample(vertex.patch);
   const VertexFaces faces = normals.vertices.facesAt(corner);
@@ -63,7 +66,6 @@ void addNormalsOfVertices(const SubdivisionLevel& base, Progress& progress, Voxe
   Samplers samplers([&] { return NormalSampler(means); });
   tbb::enumerable_thread_specific<VertexNormals> threads([&] { return VertexNormals(base); });
   forEach(partition.size(), 1, [&](Index s) {
-    progress.check();
     // Isolated: a thread that waits for parts of a patch must not begin another submesh.
     tbb::this_task_arena::isolate([&] {
       VertexNormals& normals = threads.local();
@@ -73,7 +75,8 @@ void addNormalsOfVertices(const SubdivisionLevel& base, Progress& progress, Voxe
       for (const Index f : faces) {
         const Index size = base.mesh.faceSize(f);
         LocalVertices::Corner c{slot, 0, size, base.mesh.faceOffsets[f]};
-        for (Index i = 0; i < size; ++i, c = c.next()) sampleVertex(c, rule, normals, samplers);
+        for (Index i = 0; i < size; ++i, c = c.next())
+          sampleVertex(c, rule, progress, normals, samplers);
         slot += size;
       }
     });
