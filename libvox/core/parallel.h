@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #ifdef __SANITIZE_THREAD__
@@ -22,19 +23,50 @@
 namespace vox {
 
 /// Tells ThreadSanitizer what TBB guarantees: what the caller did happens before every part of a
-/// loop, and every part before what the caller does next. (Debian's TBB is built without it, so the
-/// sanitizer does not see how a task reaches another thread.) Does nothing in other builds.
+/// loop, and every part before what the caller does next, whether it returned or threw. (Debian's
+/// TBB is built without it, so the sanitizer does not see how a task reaches another thread.) Lives
+/// around the loop; does nothing in other builds.
 class LoopOrder {
  public:
   LoopOrder() { release(&begin_); }
-  void partBegins() { acquire(&begin_); }
-  void partEnds() { release(&end_); }
-  void loopEnds() { acquire(&end_); }
+  ~LoopOrder() { acquire(&end_); }
+  LoopOrder(const LoopOrder&) = delete;
+  LoopOrder& operator=(const LoopOrder&) = delete;
 
-  /// For a task that a part hands on, in a closure of its own: before it runs, and first thing in
-  /// it, when not even the closure may be read.
-  static void taskGiven() { release(&tasks_); }
-  static void taskBegins() { acquire(&tasks_); }
+  /// Lives around a part of the loop.
+  class Part {
+   public:
+    explicit Part(LoopOrder& order) : order_(order) { acquire(&order_.begin_); }
+    ~Part() { release(&order_.end_); }
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+
+   private:
+    LoopOrder& order_;
+  };
+
+  /// Work that a part of the loop hands on to any thread, as a copy: a part of the loop itself.
+  template <class Work>
+  class Task {
+   public:
+    Task(LoopOrder& order, Work work) : order_(&order), work_(std::move(work)) {}
+    Task(const Task& task) : order_(task.order_), work_(task.work_) { release(&tasks_); }
+    ~Task() { acquire(&tasks_); }  // where it was thrown away
+    Task& operator=(const Task&) = delete;
+    void operator()() const {
+      acquire(&tasks_);  // first of all: not even the copy may be read before
+      const Part part(*order_);
+      work_();
+    }
+
+   private:
+    LoopOrder* order_;
+    Work work_;
+  };
+  template <class Work>
+  Task<Work> task(Work work) {
+    return {*this, std::move(work)};
+  }
 
  private:
 #ifdef __SANITIZE_THREAD__
@@ -58,11 +90,9 @@ template <class Body>
 void forParts(std::size_t count, std::size_t grain, Body&& body) {
   LoopOrder order;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain), [&](const auto& range) {
-    order.partBegins();
+    const LoopOrder::Part part(order);
     body(range.begin(), range.end());
-    order.partEnds();
   });
-  order.loopEnds();
 }
 
 /// Calls body(i) for every i in [0, count), in parallel.
@@ -77,17 +107,13 @@ void forEach(Integer count, std::size_t grain, Body&& body) {
 template <class Body>
 double maxOverParts(std::size_t count, std::size_t grain, Body&& body) {
   LoopOrder order;
-  const double largest = tbb::parallel_reduce(
+  return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, count, grain), 0.0,
       [&](const auto& range, double before) {
-        order.partBegins();
-        const double here = std::max(before, body(range.begin(), range.end()));
-        order.partEnds();
-        return here;
+        const LoopOrder::Part part(order);
+        return std::max(before, body(range.begin(), range.end()));
       },
       [](double a, double b) { return std::max(a, b); });
-  order.loopEnds();
-  return largest;
 }
 
 /// Sorts a vector, in parallel, by an order that must be total.
@@ -112,18 +138,8 @@ auto onThreads(int threads, Work&& work) {
                                     static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   LoopOrder order;
-  struct PartEnd {
-    LoopOrder& order;
-    ~PartEnd() { order.partEnds(); }
-  };
-  struct LoopEnd {
-    LoopOrder& order;
-    ~LoopEnd() { order.loopEnds(); }
-  };
-  const LoopEnd loopEnd{order};
   return arena.execute([&] {
-    order.partBegins();
-    const PartEnd partEnd{order};
+    const LoopOrder::Part part(order);
     return work();
   });
 }

@@ -100,23 +100,15 @@ class DeepPatches {
     for (const auto& row : childrenOf(deep.patch))
       for (const Patch& child : row) {
         const DeepPatch part{child, deep.k - 1, deep.level, deep.part};
-        if (!asTasks_) {
+        if (asTasks_)
+          tasks_.run(order_.task([this, part] { mark(part); }));
+        else
           mark(part);
-          continue;
-        }
-        LoopOrder::taskGiven();
-        tasks_.run([this, part] {
-          LoopOrder::taskBegins();
-          mark(part);
-          order_.partEnds();
-        });
       }
   }
 
-  void wait() {
-    tasks_.wait();
-    order_.loopEnds();
-  }
+  /// Until all are marked. @throws what marking one threw
+  void wait() { tasks_.wait(); }
 
  private:
   ThreadSinks& sinks_;
