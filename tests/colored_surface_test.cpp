@@ -155,6 +155,16 @@ TEST_CASE("vertices and colours have the same bits however the mesh is cut", "[c
     }
 }
 
+TEST_CASE("colours around a face of thousands of edges stay within the memory", "[color][error]") {
+  const PolygonMesh prism = coloredByPlace(test::prism(5000));
+  ConvertOptions options;
+  options.voxelize = Voxelize::kVertex;
+  options.run.maxMemory = std::uint64_t{1} << 26;
+  CHECK_THROWS_WITH(convertColor(prism, options, 16), Catch::Contains("5000 faces or edges"));
+  options.run.maxMemory = std::uint64_t{1} << 30;
+  CHECK_NOTHROW(convertColor(prism, options, 16));
+}
+
 TEST_CASE("a coloured mesh gives the same bytes for any number of threads", "[color][parallel]") {
   const auto bytes = [](int threads) {
     ConvertOptions options;

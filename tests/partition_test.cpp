@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <set>
 #include <vector>
 
 using namespace vox;
@@ -78,6 +79,30 @@ TEST_CASE("submeshes are compact, in whatever order a large mesh has its faces",
     CHECK(partition.size() < 3 * mesh.faceCount() / kMost);
     // A square of 8 x 8 faces has 112 of its 128 edges within, counting those at its sides by half.
     CHECK(innerPart(adjacency, submesh) > 0.7);
+  }
+}
+
+TEST_CASE("however many faces meet, submeshes need little more than the mesh",
+          "[localize][property]") {
+  constexpr int kFaces = 20000;
+  const PolygonMesh cone = test::openFan(kFaces, 3);
+  const PolygonMesh prism = test::prism(kFaces);
+  for (const PolygonMesh* mesh : {&cone, &prism}) {
+    const Partition partition = coverGreedily(*mesh, buildAdjacency(*mesh), 64);
+    std::vector<std::vector<Index>> facesAt(mesh->pointCount());
+    for (Index f = 0; f < mesh->faceCount(); ++f)
+      for (const Index v : mesh->face(f)) facesAt[v].push_back(f);
+    // Corners of all faces that share a vertex with one of the submesh.
+    std::size_t needed = 0;
+    for (Index s = 0; s < partition.size(); ++s) {
+      std::set<Index> vertices, faces;
+      for (const Index f : partition.submesh(s))
+        for (const Index v : mesh->face(f))
+          if (vertices.insert(v).second) faces.insert(facesAt[v].begin(), facesAt[v].end());
+      for (const Index f : faces) needed += mesh->faceSize(f);
+    }
+    CHECK(needed < 32 * mesh->cornerCount());  // with submeshes of 64 faces, 300 times
+    CHECK(partition.size() > 2);
   }
 }
 

@@ -14,6 +14,9 @@ namespace {
 
 constexpr Index kFacesPerBlock = 16384;
 
+/// Submeshes that may share a neighbourhood, about: enough for the threads to share its work too.
+constexpr Index kSubmeshesPerNeighbourhood = 8;
+
 /// The faces one after another, and where each of them is.
 struct FaceOrder {
   std::vector<Index> faces;
@@ -139,11 +142,13 @@ struct Cover {
 
 Cover coverInOrder(const PolygonMesh& mesh, const Adjacency& adjacency, const FaceOrder& order,
                    Index most) {
-  const Index blocks = (mesh.faceCount() + kFacesPerBlock - 1) / kFacesPerBlock;
+  const Index facesPerBlock = std::max(kFacesPerBlock, most);
+  const Index faces = mesh.faceCount();
+  const Index blocks = faces / facesPerBlock + (faces % facesPerBlock == 0 ? 0 : 1);
   std::vector<Cover> covers(blocks);
   forEach(blocks, 1, [&](Index b) {
-    const Index first = b * kFacesPerBlock;
-    const Index last = std::min(first + kFacesPerBlock, mesh.faceCount());
+    const Index first = b * facesPerBlock;
+    const Index last = first + std::min(facesPerBlock, faces - first);
     BlockCover block(mesh, adjacency, order, first, last);
     covers[b].partition = block.run(most);
     covers[b].centres = block.centres();
@@ -164,9 +169,19 @@ Cover coverInOrder(const PolygonMesh& mesh, const Adjacency& adjacency, const Fa
 
 }  // namespace
 
+Index largestNeighbourhood(const PolygonMesh& mesh) {
+  std::vector<Index> valences(mesh.pointCount(), 0);
+  for (const Index v : mesh.faceVertices) ++valences[v];
+  Index largest = valences.empty() ? 0 : *std::max_element(valences.begin(), valences.end());
+  for (Index f = 0; f < mesh.faceCount(); ++f) largest = std::max(largest, mesh.faceSize(f));
+  return largest;
+}
+
 Partition coverGreedily(const PolygonMesh& mesh, const Adjacency& adjacency, Index most) {
   const Index faces = mesh.faceCount();
   most = std::max<Index>(most, 1);
+  if (faces / kSubmeshesPerNeighbourhood > most)
+    most = std::max(most, largestNeighbourhood(mesh) / kSubmeshesPerNeighbourhood);
   Cover cover = coverInOrder(mesh, adjacency, inputOrder(faces), most);
   constexpr std::size_t kScattered = 4;
   const bool scattered = faces > kFacesPerBlock && cover.centres > kScattered * (faces / most + 1);

@@ -19,6 +19,9 @@ struct Partition {
   }
 };
 
+/// The most faces around a vertex, or edges of a face.
+Index largestNeighbourhood(const PolygonMesh& mesh);
+
 /// Covers a mesh greedily: a face not yet covered becomes a centre, faces without boundary edge
 /// first, and gathers the nearest uncovered faces, breadth-first over edges, up to `most` faces.
 /// What a submesh needs besides is its one-ring, so compact submeshes repeat little. Remains of
@@ -29,7 +32,8 @@ struct Partition {
 /// falling to pieces shows, the faces are put into spatial order and covered again. Deterministic;
 /// the result does not depend on threads.
 ///
-/// @param most  faces of a submesh, at least 1
+/// @param most  faces of a submesh, at least 1; more where thousands meet, as each submesh there
+/// needs them all: an eighth of the largest neighbourhood
 /// Cost O(C). Source: paper section 4.
 Partition coverGreedily(const PolygonMesh& mesh, const Adjacency& adjacency, Index most);
 

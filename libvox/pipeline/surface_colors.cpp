@@ -65,8 +65,18 @@ class VertexSamples : public ColoredSink {
 };
 
 void sampleVertices(const SubdivisionLevel& base, std::span<const Vec3d> colors,
-                    const Progress& progress, Writers& writers) {
-  const Partition partition = coverGreedily(base.mesh, base.adjacency, coloredSubmeshFaces(base));
+                    const MemoryBudget& budget, const Progress& progress, Writers& writers) {
+  // No fewer faces than around any vertex or in any face, which every submesh there makes whole.
+  constexpr Index kLeast = 256;
+  const Index largest = largestNeighbourhood(base.mesh);
+  const Partition partition = coverGreedily(base.mesh, base.adjacency, std::max(kLeast, largest));
+  // As measured: 8 KiB for a face at a vertex, 27 KiB for an edge of a face.
+  constexpr std::uint64_t kBytesPerNeighbour = 32 << 10;
+  const auto atATime = std::min<std::uint64_t>(
+      partition.size(), static_cast<std::uint64_t>(tbb::this_task_arena::max_concurrency()));
+  budget.require(kBytesPerNeighbour * largest * atATime,
+                 "colours where " + std::to_string(largest) + " faces or edges meet",
+                 "divide what meets there, use fewer threads, or raise --max-memory");
   tbb::enumerable_thread_specific<ColoredSurface> surfaces(
       [&] { return ColoredSurface(base, colors); });
   VertexSamples samples(writers);
@@ -159,7 +169,7 @@ void sampleColors(const SubdivisionLevel& base, std::span<const Vec3d> cornerCol
                   std::optional<int> levels, const MemoryBudget& budget, const Progress& progress,
                   VoxelMeans& means) {
   Writers writers([&] { return VoxelMeans::Writer(means); });
-  if (!levels) return sampleVertices(base, cornerColors, progress, writers);
+  if (!levels) return sampleVertices(base, cornerColors, budget, progress, writers);
   const ColoredLevel level = coloredLevel(base, cornerColors, *levels, budget, progress);
   samplePolygons(level, *levels == 0, progress, writers);
 }

@@ -257,13 +257,4 @@ void ColoredSurface::emit(std::span<const Index> faces, ColoredSink& sink) {
   while (piece.emit()) piece = piece.next();
 }
 
-Index coloredSubmeshFaces(const SubdivisionLevel& base) {
-  std::vector<Index> valences(base.mesh.pointCount(), 0);
-  for (const Index v : base.mesh.faceVertices) ++valences[v];
-  constexpr Index kLeast = 256;
-  Index most = std::max(kLeast, *std::max_element(valences.begin(), valences.end()));
-  for (Index f = 0; f < base.mesh.faceCount(); ++f) most = std::max(most, base.mesh.faceSize(f));
-  return most;
-}
-
 }  // namespace vox

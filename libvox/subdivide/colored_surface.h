@@ -64,8 +64,4 @@ class ColoredSurface {
   std::vector<Index> points_;         // per point
 };
 
-/// Faces for each submesh: no fewer than around any vertex or in any face, of which each submesh
-/// that touches it needs the whole neighbourhood.
-Index coloredSubmeshFaces(const SubdivisionLevel& base);
-
 }  // namespace vox
