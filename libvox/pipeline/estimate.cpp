@@ -18,8 +18,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <sstream>
+#include <unordered_set>
 
 namespace vox {
 namespace {
@@ -46,7 +46,8 @@ struct Measure {
   bool smooth = false;  ///< normals differ from voxel to voxel
 };
 
-/// The cubes of 2^log2 voxels a side that polygons meet, unless these are too large to look.
+/// The cubes of 2^log2 voxels a side that polygons meet, unless these are too large to look, or too
+/// many and long.
 class Cubes {
  public:
   Cubes(int log2, double mostPieces) : log2_(log2), mostPieces_(mostPieces) {}
@@ -67,19 +68,22 @@ class Cubes {
   /// The number of larger ones.
   std::optional<double> countOf(int log2) const {
     if (!complete_) return std::nullopt;
-    std::set<Coord> larger;
+    std::unordered_set<Coord> larger;
     for (const Coord& cube : cubes_) larger.insert(cube >> (log2 - log2_));
     return static_cast<double>(larger.size());
   }
 
  private:
+  static constexpr std::size_t kMostCuts = 1'000'000;
+
   double piece() const { return std::ldexp(0.5, log2_); }
 
   void addTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     const Vec3d low = a.cwiseMin(b).cwiseMin(c);
     const Vec3d high = a.cwiseMax(b).cwiseMax(c);
     for (const Vec3d& p : {a, b, c}) cubes_.insert(Coord::round(openvdb::Vec3d(p.data())) >> log2_);
-    if ((high - low).maxCoeff() <= piece()) return;
+    if ((high - low).maxCoeff() <= piece() || !complete_) return;
+    complete_ = ++cuts_ < kMostCuts;
     const double ab = (b - a).norm();
     const double bc = (c - b).norm();
     const double ca = (a - c).norm();
@@ -97,7 +101,8 @@ class Cubes {
   int log2_;
   double mostPieces_;
   bool complete_ = true;
-  std::set<Coord> cubes_;
+  std::size_t cuts_ = 0;
+  std::unordered_set<Coord> cubes_;
 };
 
 /// Whether a surface may become far smaller than its control mesh, so that nothing is certain.
