@@ -228,13 +228,13 @@ void NearestActive::look(Search& search, std::size_t level, std::size_t node) co
   const std::size_t begin = node * kFanout;
   const std::size_t end = std::min(begin + kFanout, below);
   std::array<std::pair<double, std::size_t>, kFanout> order;
+  order.fill({std::numeric_limits<double>::infinity(), below});
   for (std::size_t i = begin; i < end; ++i) {
     const CoordBBox& box = level == 0 ? blocks_[i].box : levels_[level - 1][i];
     order[i - begin] = {vox::squaredDistance(search.from, box), i};
   }
-  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(end - begin));
-  for (std::size_t i = 0; i < end - begin; ++i) {
-    const auto& [distance, child] = order[i];
+  std::sort(order.begin(), order.end());
+  for (const auto& [distance, child] : order) {
     if (distance >= search.best || search.over()) return;
     if (level == 0)
       search.look(blocks_[child]);
