@@ -116,6 +116,7 @@ void checkAgainstDifferences(const Patch& patch, int rows, int columns) {
     const Vec3d got =
         Vec3d(static_cast<double>(sum.x), static_cast<double>(sum.y), static_cast<double>(sum.z)) /
         one;
+    // Single precision (1e-5 with what cancels) and the 18 bits of a sample, with room.
     REQUIRE((got - e.sum).norm() < 2e-5 * static_cast<double>(e.count));
   }
   CHECK(count == std::int64_t{1} << (rows + columns));
