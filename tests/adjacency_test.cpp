@@ -36,9 +36,9 @@ TEST_CASE("twins agree with OpenMesh's half-edges", "[mesh]") {
     for (Index c = 0; c < mesh.cornerCount(); ++c) {
       const Index from = mesh.faceVertices[c];
       const Index to = mesh.faceVertices[nextCorner(mesh, adjacency, c)];
-      const auto half = oracle.find_halfedge(OpenMesh::VertexHandle(static_cast<int>(from)),
-                                             OpenMesh::VertexHandle(static_cast<int>(to)));
-      const auto across = oracle.face_handle(oracle.opposite_halfedge_handle(half));
+      const auto halfedge = oracle.find_halfedge(OpenMesh::VertexHandle(static_cast<int>(from)),
+                                                 OpenMesh::VertexHandle(static_cast<int>(to)));
+      const auto across = oracle.face_handle(oracle.opposite_halfedge_handle(halfedge));
       const Index t = adjacency.twin[c];
       REQUIRE((t != kNone) == across.is_valid());
       if (t == kNone) continue;

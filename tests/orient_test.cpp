@@ -216,10 +216,10 @@ TEST_CASE("the two sides of a one-sided surface subdivide to the same points", "
     return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
   });
   // Every point of the limit is there from either side: no point is far from its nearest in order.
-  const auto half = points.size() / 2;
+  const auto pairs = points.size() / 2;
   std::vector<Vec3d> odd;
   std::vector<Vec3d> even;
-  for (std::size_t k = 0; k < half; ++k) {
+  for (std::size_t k = 0; k < pairs; ++k) {
     even.push_back(points[2 * k]);
     odd.push_back(points[2 * k + 1]);
   }
