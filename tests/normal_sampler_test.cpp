@@ -1,6 +1,7 @@
 #include "libvox/voxelize/normal_sampler.h"
 
 #include "libvox/grid/voxel.h"
+#include "libvox/mesh/patch_parts.h"
 #include "libvox/voxelize/normal_tile.h"
 
 #include <catch2/catch.hpp>

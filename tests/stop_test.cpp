@@ -35,7 +35,7 @@ TEST_CASE("at the depth of a patch all its faces fit, and one level higher need 
     Patch patch;
     for (std::size_t u = 0; u < 3; ++u)
       for (std::size_t v = 0; v < 3; ++v) patch.points[u][v] = at(u + 1, v + 1);
-    const int k = patchDepth(patch).levels;
+    const int k = patchDepth(patch);
 
     // Faces of the refined net that have a descendant of the middle vertex as a corner.
     const auto largestAt = [&](int depth) {

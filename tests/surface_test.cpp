@@ -137,6 +137,8 @@ TEST_CASE("the whole mesh level by level has the voxels of its submeshes, but fo
     compare(scaled(test::cube(), size));  // full of exact ties
     compare(scaled(test::dodecahedron(), size));
   }
+  compare(scaled(test::prism(80), 70));  // full of thin patches
+  compare(scaled(test::pyramid(90), 50.5));
   CAPTURE(ties);
   CHECK(ties < 1000);
 }

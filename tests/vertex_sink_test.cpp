@@ -2,6 +2,7 @@
 
 #include "libvox/core/parallel.h"
 #include "libvox/grid/voxel.h"
+#include "libvox/mesh/patch_parts.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/voxelize/tile.h"
 #include "tests/reference.h"
@@ -264,6 +265,36 @@ TEST_CASE("a patch marks the voxels of its descendants, up to rounding ties",
   CHECK(ties < 50);
 }
 
+TEST_CASE("a curve marks the voxels of its vertices, up to rounding ties", "[voxelize][property]") {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  constexpr double kRounding = 1e-11;
+  std::size_t checked = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const int k = trial % 10;
+    const std::int64_t n = std::int64_t{1} << k;
+    CurvePoints points;
+    for (Vec3d& p : points) {
+      p = {coordinate(random), coordinate(random), coordinate(random)};
+      p = static_cast<double>(n) * p + (trial % 2 == 0 ? Vec3d(3, -4, 5) : Vec3d(16384, 0.5, -900));
+    }
+    SurfaceGrid grid;
+    VertexSink sink(grid);
+    sink.curve(points, k, k);
+    sink.flush();
+    CHECK(sink.vertices()[static_cast<std::size_t>(k)] == static_cast<std::uint64_t>(n));
+    std::vector<Vec3d> vertices;
+    for (std::int64_t j = 0; j < n; ++j)
+      vertices.push_back(PatchWeights(j, n)(points[0], points[1], points[2]));
+    if (std::any_of(vertices.begin(), vertices.end(),
+                    [&](const Vec3d& p) { return nearlyTied(p, kRounding); }))
+      continue;
+    ++checked;
+    CHECK(grid.takeTree()->hasSameTopology(*treeOf(vertices)));
+  }
+  CHECK(checked > 150);
+}
+
 TEST_CASE("the four children of a patch have its descendants", "[voxelize][property]") {
   std::mt19937 random(9);
   for (int trial = 0; trial < 20; ++trial) {
@@ -284,8 +315,10 @@ TEST_CASE("every instruction set marks the same voxels", "[voxelize][simd]") {
   const auto mark = [&] {
     SurfaceGrid grid;
     VertexSink sink(grid);
-    for (const Patch& patch : patches)
+    for (const Patch& patch : patches) {
       sink.patch(patch, 3 + static_cast<int>(patch.points[1][1].x()) % 4, 1);
+      sink.curve(patch.points[1], static_cast<int>(patch.points[1][1].x()) % 9, 1);
+    }
     sink.flush();
     return grid.takeTree();
   };

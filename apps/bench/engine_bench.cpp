@@ -13,6 +13,7 @@
 #include "libvox/core/progress.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/read_mesh.h"
+#include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/normals.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/surface.h"

@@ -51,9 +51,9 @@ ReferenceSurface referenceOf(const Scene& scene, const SceneObject& object,
   GridTransform transform = transformForVoxelSize(*options.voxelSize);
   transform.turn = turnOf(overriding(options.volume, scene.volume));
   for (Vec3d& point : level.mesh.points) point = transform.toIndex(point);
-  const ConversionWay way = chooseWay(level, decided(options.until, object.until, scene.until),
-                                      decided(options.voxelize, object.voxelize, scene.voxelize),
-                                      options.separation, options.surface, progress);
+  const ConversionWay way =
+      chooseWay(decided(options.until, object.until, scene.until),
+                decided(options.voxelize, object.voxelize, scene.voxelize), options.separation);
   if (!way.polygons) return smoothReference(std::move(level), budget, progress);
   const bool uniform = way.until == StopRule{.levels = way.until.levels};
   if (uniform)

@@ -17,7 +17,7 @@
 #define VOX_LEAF_CACHE_SHARED
 namespace vox {
 constexpr std::size_t kMostLanes = 8;
-constexpr std::size_t kPlacesAtOnce = 64;
+constexpr std::size_t kPlacesAtOnce = LeafCache::kPositionsAtOnce;
 
 /// Where single voxels go: their leaf, its slot, and their number in it.
 struct LeafCache::VoxelPlaces {
@@ -34,10 +34,13 @@ HWY_BEFORE_NAMESPACE();
 namespace vox::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+using D = hn::CappedTag<double, kMostLanes>;
+
 /// Where voxelOf puts positions, a multiple of kMostLanes.
-void place(const double* HWY_RESTRICT positions, std::size_t count,
-           LeafCache::VoxelPlaces& places) {
-  const hn::CappedTag<double, kMostLanes> d;
+/// @param load  sets the coordinates of positions from a number on
+template <class Load>
+void placeEach(std::size_t count, LeafCache::VoxelPlaces& places, Load&& load) {
+  const D d;
   const hn::Rebind<std::int32_t, decltype(d)> d32;
   const auto half = hn::Set(d, 0.5);
   const auto in = hn::Set(d32, 7);
@@ -50,7 +53,7 @@ void place(const double* HWY_RESTRICT positions, std::size_t count,
     auto xs = hn::Zero(d);
     auto ys = xs;
     auto zs = xs;
-    hn::LoadInterleaved3(d, positions + 3 * i, xs, ys, zs);
+    load(i, xs, ys, zs);
     const auto x = round(xs);
     const auto y = round(ys);
     const auto z = round(zs);
@@ -65,6 +68,24 @@ void place(const double* HWY_RESTRICT positions, std::size_t count,
   }
 }
 
+void placeInterleaved(const double* HWY_RESTRICT positions, std::size_t count,
+                      LeafCache::VoxelPlaces& places) {
+  using V = hn::Vec<D>;
+  placeEach(count, places, [&](std::size_t i, V& x, V& y, V& z) HWY_ATTR {
+    hn::LoadInterleaved3(D(), positions + 3 * i, x, y, z);
+  });
+}
+
+void placeColumns(const LeafCache::Positions& positions, std::size_t count,
+                  LeafCache::VoxelPlaces& places) {
+  using V = hn::Vec<D>;
+  placeEach(count, places, [&](std::size_t i, V& x, V& y, V& z) HWY_ATTR {
+    x = hn::Load(D(), positions.axis[0].data() + i);
+    y = hn::Load(D(), positions.axis[1].data() + i);
+    z = hn::Load(D(), positions.axis[2].data() + i);
+  });
+}
+
 }  // namespace vox::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -72,7 +93,8 @@ HWY_AFTER_NAMESPACE();
 namespace vox {
 namespace {
 
-HWY_EXPORT(place);
+HWY_EXPORT(placeInterleaved);
+HWY_EXPORT(placeColumns);
 
 constexpr std::size_t kMostPending = 256;
 
@@ -92,11 +114,18 @@ void LeafCache::add(std::span<const Vec3d> positions) {
   VoxelPlaces places;
   while (positions.size() >= kMostLanes) {
     const std::size_t count = std::min(positions.size() / kMostLanes * kMostLanes, kPlacesAtOnce);
-    HWY_DYNAMIC_DISPATCH(place)(positions[0].data(), count, places);
+    HWY_DYNAMIC_DISPATCH(placeInterleaved)(positions[0].data(), count, places);
     addPlaces(places, count);
     positions = positions.subspan(count);
   }
   for (const Vec3d& position : positions) add(voxelOf(position));
+}
+
+void LeafCache::add(const Positions& positions, std::size_t count) {
+  VoxelPlaces places;
+  HWY_DYNAMIC_DISPATCH(placeColumns)
+  (positions, (count + kMostLanes - 1) / kMostLanes * kMostLanes, places);
+  addPlaces(places, count);
 }
 
 void LeafCache::addPlaces(const VoxelPlaces& places, std::size_t count) {

@@ -43,6 +43,15 @@ class LeafCache {
   /// @throws LimitError  as collect
   void add(std::span<const Vec3d> positions);
 
+  /// Some positions, coordinate by coordinate; what lies behind the last of them does not matter.
+  static constexpr std::size_t kPositionsAtOnce = 64;
+  struct Positions {
+    using Column = std::array<double, kPositionsAtOnce>;
+    alignas(64) std::array<Column, 3> axis{};
+  };
+  /// The same for the first `count` of them.
+  void add(const Positions& positions, std::size_t count);
+
   /// Switches on voxels of the 4 x 4 x 4 block that begins at `origin`, which may lie across
   /// leaves: bit 16 i + 4 j + k stands for voxel origin + (i, j, k).
   /// @throws LimitError  as collect

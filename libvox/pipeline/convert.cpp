@@ -62,13 +62,12 @@ void convertPolygons(const PreparedSurface& surface, const SurfaceOptions& optio
 }
 
 /// How each object becomes voxels.
-void chooseWays(const Scene& scene, const ConvertOptions& options, const Progress& progress,
+void chooseWays(const Scene& scene, const ConvertOptions& options,
                 std::span<PreparedSurface> surfaces) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const SceneObject& object = scene.objects[i];
-    surfaces[i].way = chooseWay(surfaces[i].base, stopRuleOf(object, scene, options),
-                                voxelizeOf(object, scene, options), options.separation,
-                                options.surface, progress);
+    surfaces[i].way = chooseWay(stopRuleOf(object, scene, options),
+                                voxelizeOf(object, scene, options), options.separation);
   }
 }
 
@@ -131,7 +130,7 @@ Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progr
   auto [budget, kinds, volume, transform, areas, surfaces, estimate] =
       prepareScene(scene, options, progress, report);
   if (!estimate.refusal.empty()) throw LimitError(estimate.refusal);
-  chooseWays(scene, options, progress, surfaces);
+  chooseWays(scene, options, surfaces);
   const auto toMark = needsVoxels(kinds) ? std::span(surfaces) : std::span<PreparedSurface>();
   const openvdb::MaskGrid::Ptr mask =
       markObjects(scene, toMark, options, transform, needsVoxelsApart(surfaces, kinds), areas,
@@ -157,7 +156,7 @@ Estimate estimateScene(const Scene& scene, const ConvertOptions& options, Progre
   warnings = report.warnings;
   Estimate& estimate = prepared.estimate;
   if (!estimate.refusal.empty()) return estimate;
-  chooseWays(scene, options, progress, prepared.surfaces);
+  chooseWays(scene, options, prepared.surfaces);
   estimate = estimateGrids(prepared.surfaces, prepared.kinds, prepared.volume);
   estimate.voxelSize = report.voxelSize;
   for (const PreparedSurface& surface : prepared.surfaces)

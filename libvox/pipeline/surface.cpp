@@ -4,6 +4,7 @@
 
 #include "libvox/core/parallel.h"
 #include "libvox/localize/partition.h"
+#include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/subdivide/doo_sabin.h"
@@ -89,6 +90,8 @@ class DeepPatches {
   DeepPatches& operator=(const DeepPatches&) = delete;
 
   bool asTasks() const { return asTasks_; }
+  /// @throws Cancelled
+  void check() const { progress_.check(); }
 
   void mark(const DeepPatch& deep) {
     progress_.check();
@@ -129,6 +132,7 @@ class SubmeshSink : public SurfaceSink {
 
   void points(std::span<const Vec3d> points, int level) override { sink_.points(points, level); }
   void curve(const CurvePoints& points, int k, int level) override {
+    if (k > kMostLevelsOfTask) deepPatches_.check();
     sink_.curve(points, k, level);
   }
   void patch(const Patch& patch, int k, int level) override {

@@ -4,10 +4,12 @@
 
 #include "libvox/core/parallel.h"
 #include "libvox/localize/partition.h"
+#include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/subdivide/depth_rule.h"
 #include "libvox/subdivide/local_vertices.h"
 #include "libvox/subdivide/stop.h"
+#include "libvox/subdivide/thin_patch.h"
 #include "libvox/voxelize/normal_sampler.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -29,17 +31,29 @@ using Samplers = tbb::enumerable_thread_specific<NormalSampler>;
 /// Patches of more levels are shared among threads.
 constexpr int kMostLevelsOfTask = 8;
 
-void samplePatch(const Patch& patch, int rows, int columns, const Progress& progress,
-                 Samplers& samplers) {
+void samplePatch(const Patch& patch, int levels, const Progress& progress, Samplers& samplers) {
   progress.check();
-  if (std::max(rows, columns) <= kMostLevelsOfTask)
-    return samplers.local().patch(patch, rows, columns);
-  const bool turn = rows < columns;
-  const auto halves = halvesAlongU(turn ? quarterTurn(patch) : patch);
-  forEach(halves.size(), 1, [&](std::size_t half) {
-    samplePatch(halves[half], std::max(rows, columns) - 1, std::min(rows, columns), progress,
-                samplers);
+  if (levels <= kMostLevelsOfTask) return samplers.local().patch(patch, levels, levels);
+  const auto children = childrenOf(patch);
+  forEach(4, 1, [&](std::size_t child) {
+    samplePatch(children[child / 2][child % 2], levels - 1, progress, samplers);
   });
+}
+
+/// The vertices that emitRegular makes of it.
+void sampleThin(const ThinPatch& thin, const Progress& progress, NormalSampler& sampler) {
+  const std::int64_t n = std::int64_t{1} << thin.levels;
+  const auto sampleRow = [&](const Patch& patch, std::int64_t i) {
+    progress.check();
+    const CurvePoints row = rowOf(patch, {i, n});
+    const LimitNormals normals(patch, SplinePlace::ofVertex(i, n));
+    for (std::int64_t j = 0; j < n; ++j)
+      sampler.point(PatchWeights(j, n)(row[0], row[1], row[2]),
+                    normals.at(SplinePlace::ofVertex(j, n)));
+  };
+  for (const std::int64_t i : thin.rows) sampleRow(thin.patch, i);
+  const Patch across = quarterTurn(thin.patch);
+  for (const std::int64_t j : {std::int64_t{0}, n - 1}) sampleRow(across, j);
 }
 
 void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
@@ -47,9 +61,11 @@ void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
   const LevelOneVertex vertex = normals.vertices.at(corner);
   // As many vertices of a patch as blacken voxels: with fewer, voxels would be left out.
   const auto sample = [&](const Patch& partial) {
-    const Patch patch = continued(partial);
-    const PatchDepth depth = patchDepth(patch);
-    samplePatch(patch, depth.alongU, depth.alongV, progress, samplers);
+    const int levels = patchDepth(partial);
+    if (const auto thin = thinPatch(partial, levels))
+      sampleThin(*thin, progress, samplers.local());
+    else
+      samplePatch(continued(partial), levels, progress, samplers);
   };
   if (vertex.regular) return sample(vertex.patch);
   const VertexFaces faces = normals.vertices.facesAt(corner);

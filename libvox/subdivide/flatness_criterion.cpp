@@ -2,6 +2,7 @@
 
 #include "libvox/subdivide/flatness_criterion.h"
 
+#include "libvox/mesh/patch_parts.h"
 #include "libvox/subdivide/least_depth.h"
 #include "libvox/subdivide/patch_shape.h"
 
@@ -60,21 +61,6 @@ struct PatchBends {
   }
 };
 
-/// One level below a complete patch.
-std::array<Patch, 4> childrenOf(const Patch& patch) {
-  std::array<CurvePoints, 4> rows;
-  for (int i = -1; i <= 2; ++i) rows[static_cast<std::size_t>(i + 1)] = rowOf(patch, {i, 2});
-  std::array<Patch, 4> children;
-  for (std::size_t child = 0; child < 4; ++child)
-    for (std::size_t u = 0; u < 3; ++u)
-      for (std::size_t v = 0; v < 3; ++v) {
-        const CurvePoints& row = rows[child / 2 + u];
-        const auto j = static_cast<std::int64_t>(child % 2 + v) - 1;
-        children[child].points[u][v] = PatchWeights(j, 2)(row[0], row[1], row[2]);
-      }
-  return children;
-}
-
 class FlatnessCriterion : public Criterion {
  public:
   explicit FlatnessCriterion(double limit) : limit_(limit) {}
@@ -123,8 +109,8 @@ class FlatnessCriterion : public Criterion {
     const int k = leastDepth(most, [&](int depth) { return fineBelow(bends, depth, depth); });
     if (k < 2 || splits == 0 || bends.sine < kTurnsMuch) return k;
     int below = 0;
-    for (const Patch& child : childrenOf(patch))
-      below = std::max(below, squareDepth(child, k - 1, splits - 1));
+    for (const auto& row : childrenOf(patch))
+      for (const Patch& child : row) below = std::max(below, squareDepth(child, k - 1, splits - 1));
     return 1 + below;
   }
 

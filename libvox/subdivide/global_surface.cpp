@@ -5,6 +5,7 @@
 #include "libvox/core/error.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
+#include "libvox/subdivide/thin_patch.h"
 #include "libvox/subdivide/vertex_patch.h"
 #include "libvox/subdivide/vertex_split.h"
 
@@ -66,12 +67,11 @@ class Decisions {
       levelsToGo_[v] = 1;
   }
 
-  /// An elongated patch has no levels of its own in the mesh; it is evaluated in closed form.
+  /// Of a thin patch some vertices go out, in closed form, and none from levels of the mesh.
   void decideRegular(Index v, const Patch& patch) {
-    const PatchDepth depth = patchDepth(patch);
-    levelsToGo_[v] = depth.levels;
-    if (!depth.elongated()) return;
-    emitRegular(patch, number_, sink_);
+    levelsToGo_[v] = patchDepth(patch);
+    if (!thinPatch(patch, levelsToGo_[v])) return;
+    emitRegular(patch, levelsToGo_[v], number_, sink_);
     levelsToGo_[v] = kEmitted;
   }
 

@@ -102,11 +102,11 @@ bool LocalSurface::isInside(const Corner& at) const {
 /// Emits a regular vertex of `level`; those that are fine enough are collected.
 void LocalSurface::emitSmall(const Patch& patch, int level, std::vector<Vec3d>& finished,
                              SurfaceSink& sink) {
-  const PatchDepth depth = patchDepth(patch);
-  if (depth.levels == 0)
+  const int levels = patchDepth(patch);
+  if (levels == 0)
     finished.push_back(patch.points[1][1]);
   else
-    emitRegular(patch, depth, level, sink);
+    emitRegular(patch, levels, level, sink);
 }
 
 /// The last step at a level-1 vertex inside the surface.

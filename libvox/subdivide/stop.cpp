@@ -15,29 +15,6 @@ int halvings(double size) {
   return k;
 }
 
-bool fineAt(const PatchSteps& steps, int alongU, int alongV) {
-  return steps.sizeBelow(alongU, alongV) <= kVertexConversionSpan;
-}
-
-double verticesOf(const PatchDepth& depth) {
-  const double array = std::ldexp(1.0, depth.alongU + depth.alongV);
-  return depth.elongated() ? array + 4 * std::ldexp(1.0, depth.levels) : array;
-}
-
-/// The cheapest depths along the two axes, if they save at least half.
-PatchDepth elongatedDepth(const PatchSteps& steps, int levels) {
-  const PatchDepth square = {levels, levels, levels};
-  PatchDepth best = square;
-  for (const int most : {levels, levels + 1})
-    for (int least = 0; least < levels; ++least) {
-      const PatchDepth wide = {levels, most, least};
-      const PatchDepth high = {levels, least, most};
-      if (fineAt(steps, most, least) && verticesOf(wide) < verticesOf(best)) best = wide;
-      if (fineAt(steps, least, most) && verticesOf(high) < verticesOf(best)) best = high;
-    }
-  return 2 * verticesOf(best) <= verticesOf(square) ? best : square;
-}
-
 }  // namespace
 
 double contraction(std::size_t sides) {
@@ -61,16 +38,9 @@ bool childrenFineEnough(double largestDiameter, double largestContraction) {
   return largestContraction * largestDiameter <= 2 * kVertexConversionSpan;
 }
 
-PatchDepth patchDepth(const Patch& patch) {
+int patchDepth(const Patch& patch) {
   const PatchSteps steps(patch);
-  const int k = halvings((steps.u + steps.v).maxCoeff());
-  constexpr int kLeastElongated = 4;  // fewer vertices are not worth it
-  if (k < kLeastElongated || patch.quadrants != kAllQuadrants) return {k, k, k};
-  constexpr double kAspect = 6;
-  const double u = steps.u.maxCoeff();
-  const double v = steps.v.maxCoeff();
-  const bool square = kAspect * std::min(u, v) > std::max(u, v);
-  return square ? PatchDepth{k, k, k} : elongatedDepth(steps, k);
+  return halvings((steps.u + steps.v).maxCoeff());
 }
 
 int curveDepth(double stripDiameter) {

@@ -43,21 +43,10 @@ double contraction(std::size_t sides);
 /// the largest contraction of the faces around it, none of them a strip face.
 bool childrenFineEnough(double largestDiameter, double largestContraction);
 
-/// How deep a regular vertex is subdivided.
-struct PatchDepth {
-  /// Levels at which every descendant is fine enough; 0 if the vertex is so itself.
-  int levels = 0;
-  /// For a patch much longer than wide: levels along u and along v at which its descendants would
-  /// be fine enough, and far fewer. Else both are `levels`.
-  int alongU = 0;
-  int alongV = 0;
-  bool elongated() const { return alongU != levels || alongV != levels; }
-};
-
+/// How many levels deep all descendants of a regular vertex are fine enough; 0 if it is so itself.
 /// Differences between neighbours are halved by every level and averaged, so that all faces k
-/// levels along u and l along v measure at most 2^-k max |du| + 2^-l max |dv|, along each axis by
-/// itself.
-PatchDepth patchDepth(const Patch& patch);
+/// levels down measure at most 2^-k (max |du| + max |dv|), along each axis by itself.
+int patchDepth(const Patch& patch);
 
 /// Levels for a vertex of the boundary curve of an extended surface, from the largest diameter of
 /// the strip faces it belongs to. A safe bound for strips of any number of sides: they shrink by

@@ -2,7 +2,8 @@
 
 #include "libvox/subdivide/vertex_split.h"
 
-#include <algorithm>
+#include "libvox/mesh/patch_parts.h"
+#include "libvox/subdivide/thin_patch.h"
 
 namespace vox {
 namespace {
@@ -13,37 +14,14 @@ std::uint8_t quadrants(bool q0, bool q1, bool q2, bool q3) {
                                    (q3 ? 8U : 0U));
 }
 
-/// A patch with u and v exchanged.
-Patch transposed(const Patch& patch) {
-  Patch other = patch;
-  for (std::size_t u = 0; u < 3; ++u)
-    for (std::size_t v = 0; v < 3; ++v) other.points[v][u] = patch.points[u][v];
-  return other;
-}
-
-/// Row i of n along u, with its vertices along v.
-void emitRow(const Patch& patch, std::int64_t i, std::int64_t n, int alongV, int level,
-             SurfaceSink& sink) {
-  const PatchWeights weights(i, n);
-  CurvePoints points;
-  for (std::size_t v = 0; v < 3; ++v)
-    points[v] = weights(patch.points[0][v], patch.points[1][v], patch.points[2][v]);
-  sink.curve(points, alongV, level + alongV);
-}
-
-void emitElongated(const Patch& patch, const PatchDepth& depth, int level, SurfaceSink& sink) {
-  const Patch across = transposed(patch);
-  const std::int64_t whole = std::int64_t{1} << depth.levels;
-  for (const std::int64_t i : {std::int64_t{0}, whole - 1}) {
-    emitRow(patch, i, whole, depth.levels, level, sink);
-    emitRow(across, i, whole, depth.levels, level, sink);
-  }
-  // Few long rows rather than many short ones.
-  const bool rowsAlongV = depth.alongU < depth.alongV;
-  const std::int64_t rows = std::int64_t{1} << std::min(depth.alongU, depth.alongV);
-  for (std::int64_t i = 0; i < rows; ++i)
-    emitRow(rowsAlongV ? patch : across, i, rows, std::max(depth.alongU, depth.alongV), level,
-            sink);
+/// Rows are written as such, columns as rows of the patch seen from another side.
+void emitThin(const ThinPatch& thin, int level, SurfaceSink& sink) {
+  const int k = thin.levels;
+  const std::int64_t n = std::int64_t{1} << k;
+  for (const std::int64_t i : thin.rows) sink.curve(rowOf(thin.patch, {i, n}), k, level + k);
+  const Patch across = quarterTurn(thin.patch);
+  for (const std::int64_t j : {std::int64_t{0}, n - 1})
+    sink.curve(rowOf(across, {j, n}), k, level + k);
 }
 
 }  // namespace
@@ -52,13 +30,13 @@ void emitRegular(const Patch& patch, int level, SurfaceSink& sink) {
   emitRegular(patch, patchDepth(patch), level, sink);
 }
 
-void emitRegular(const Patch& patch, const PatchDepth& depth, int level, SurfaceSink& sink) {
-  if (depth.levels == 0)
+void emitRegular(const Patch& patch, int levels, int level, SurfaceSink& sink) {
+  if (levels == 0)
     sink.points({&patch.points[1][1], 1}, level);
-  else if (depth.elongated())
-    emitElongated(patch, depth, level, sink);
+  else if (const auto thin = thinPatch(patch, levels))
+    emitThin(*thin, level, sink);
   else
-    sink.patch(patch, depth.levels, level + depth.levels);
+    sink.patch(patch, levels, level + levels);
 }
 
 Patch VertexSplit::childInR() const {

@@ -57,15 +57,10 @@ struct VertexSplit {
   void emitInK(int level, SurfaceSink& sink) const;
 };
 
-/// Gives a regular vertex of `level` to the sink, at its depth: as a point, as a patch, or, where
-/// it is much longer than wide, as rows.
-///
-/// An elongated patch is emitted as an array of fewer vertices along one axis than along the other,
-/// refined as the tensor product it is. Such an array and that of a neighbour need not contain each
-/// other, so the outermost vertices of the whole N x N array go out besides: they are fine enough
-/// in both directions, for the neighbour as for the array within (mixed depths, DESIGN section 6).
+/// Gives a regular vertex of `level` to the sink, at its depth: as a point, as a patch, or, of a
+/// thin patch, as the rows that do for it and the two outermost columns.
 void emitRegular(const Patch& patch, int level, SurfaceSink& sink);
 /// The same, of the depth that patchDepth says.
-void emitRegular(const Patch& patch, const PatchDepth& depth, int level, SurfaceSink& sink);
+void emitRegular(const Patch& patch, int levels, int level, SurfaceSink& sink);
 
 }  // namespace vox

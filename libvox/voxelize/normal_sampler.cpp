@@ -2,35 +2,13 @@
 
 #include "libvox/voxelize/normal_sampler.h"
 
-#include "libvox/mesh/chaikin.h"
+#include "libvox/mesh/patch_parts.h"
 #include "libvox/voxelize/normal_tile.h"
 #include "libvox/voxelize/voxel_box.h"
 
 #include <algorithm>
 
 namespace vox {
-
-Patch quarterTurn(const Patch& patch) {
-  Patch turned;
-  for (std::size_t u = 0; u < 3; ++u)
-    for (std::size_t v = 0; v < 3; ++v) turned.points[u][v] = patch.points[v][2 - u];
-  return turned;
-}
-
-std::array<Patch, 2> halvesAlongU(const Patch& patch) {
-  std::array<Patch, 2> halves;
-  for (std::size_t v = 0; v < 3; ++v) {
-    const Vec3d& a = patch.points[0][v];
-    const Vec3d& b = patch.points[1][v];
-    const Vec3d& c = patch.points[2][v];
-    const std::array<Vec3d, 4> fine = {chaikin(a, b), chaikin(b, a), chaikin(b, c), chaikin(c, b)};
-    for (std::size_t u = 0; u < 3; ++u) {
-      halves[0].points[u][v] = fine[u];
-      halves[1].points[u][v] = fine[u + 1];
-    }
-  }
-  return halves;
-}
 
 void NormalSampler::patch(const Patch& patch, int rows, int columns) {
   const int longer = std::max(rows, columns);

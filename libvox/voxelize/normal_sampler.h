@@ -3,16 +3,7 @@
 #include "libvox/grid/mean_brick.h"
 #include "libvox/mesh/patch.h"
 
-#include <array>
-
 namespace vox {
-
-/// The patch seen from another side: u runs against what v was. It has the same vertices and the
-/// same outside; rows are what columns were.
-Patch quarterTurn(const Patch& patch);
-
-/// The two patches that have the first and the second half of the rows, one level down along u.
-std::array<Patch, 2> halvesAlongU(const Patch& patch);
 
 /// Gives voxels the limit normals at the vertices that lie in them. One per thread; the sums do not
 /// depend on who gets which patch. Source: paper section 8.

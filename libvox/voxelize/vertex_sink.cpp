@@ -3,16 +3,13 @@
 #include "libvox/voxelize/vertex_sink.h"
 
 #include "libvox/grid/voxel.h"
-#include "libvox/mesh/chaikin.h"
+#include "libvox/mesh/patch_parts.h"
+#include "libvox/voxelize/row.h"
 #include "libvox/voxelize/tile.h"
 #include "libvox/voxelize/voxel_box.h"
 
 namespace vox {
 namespace {
-
-std::array<Vec3d, 4> refine(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  return {chaikin(a, b), chaikin(b, a), chaikin(b, c), chaikin(c, b)};
-}
 
 constexpr std::size_t kMostSmallVertices = std::size_t{1} << (2 * (kLeastTileLevels - 1));
 
@@ -27,20 +24,6 @@ std::span<const PatchWeights> smallWeights(int k) {
 
 }  // namespace
 
-std::array<std::array<Patch, 2>, 2> childrenOf(const Patch& patch) {
-  std::array<std::array<Vec3d, 4>, 3> along;
-  for (std::size_t u = 0; u < 3; ++u)
-    along[u] = refine(patch.points[u][0], patch.points[u][1], patch.points[u][2]);
-  std::array<std::array<Vec3d, 4>, 4> fine;  // [v][u]
-  for (std::size_t v = 0; v < 4; ++v) fine[v] = refine(along[0][v], along[1][v], along[2][v]);
-  std::array<std::array<Patch, 2>, 2> children;
-  for (std::size_t a = 0; a < 2; ++a)
-    for (std::size_t b = 0; b < 2; ++b)
-      for (std::size_t u = 0; u < 3; ++u)
-        for (std::size_t v = 0; v < 3; ++v) children[a][b].points[u][v] = fine[b + v][a + u];
-  return children;
-}
-
 void VertexSink::mark(const Vec3d& position) {
   cache_.add(voxelOf(position));
 }
@@ -53,7 +36,13 @@ void VertexSink::points(std::span<const Vec3d> points, int level) {
 void VertexSink::curve(const CurvePoints& points, int k, int level) {
   const std::int64_t n = std::int64_t{1} << k;
   vertices_[static_cast<std::size_t>(level)] += static_cast<std::uint64_t>(n);
-  for (std::int64_t j = 0; j < n; ++j) mark(PatchWeights(j, n)(points[0], points[1], points[2]));
+  LeafCache::Positions positions;
+  constexpr auto kMost = static_cast<std::int64_t>(LeafCache::kPositionsAtOnce);
+  for (std::int64_t j = 0; j < n; j += kMost) {
+    const auto count = static_cast<std::size_t>(std::min(kMost, n - j));
+    setRow(points, n, j, count, positions);
+    cache_.add(positions, count);
+  }
 }
 
 void VertexSink::patch(const Patch& patch, int k, int level) {

@@ -44,7 +44,4 @@ class VertexSink : public SurfaceSink {
   LevelCounts vertices_{};
 };
 
-/// The four patches one level below: [u][v].
-std::array<std::array<Patch, 2>, 2> childrenOf(const Patch& patch);
-
 }  // namespace vox

@@ -1,0 +1,103 @@
+// Which rows of a patch do for all of it.
+
+#include "libvox/subdivide/thin_patch.h"
+
+#include "libvox/mesh/patch_parts.h"
+#include "libvox/subdivide/patch_strips.h"
+#include "libvox/subdivide/sizes.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vox {
+namespace {
+
+/// Adds the rows that are needed between i and j. False if there would be more than `most`.
+bool addBetween(const PatchStrips& strips, std::int64_t i, std::int64_t j, std::int64_t most,
+                std::vector<std::int64_t>& rows) {
+  if (static_cast<std::int64_t>(rows.size()) > most) return false;
+  if (j - i == 1 || strips.fillable(i, j)) return true;
+  const std::int64_t middle = i + (j - i) / 2;
+  if (!addBetween(strips, i, middle, most - 1, rows)) return false;
+  rows.push_back(middle);
+  return addBetween(strips, middle, j, most, rows);
+}
+
+/// The rows to keep, in ascending order. False if they are more than `most`.
+bool setRows(const Patch& patch, int levels, std::int64_t most, std::vector<std::int64_t>& rows) {
+  const std::int64_t n = std::int64_t{1} << levels;
+  rows.assign(1, 0);
+  if (!addBetween(PatchStrips(patch, levels), 0, n - 1, most - 1, rows)) return false;
+  rows.push_back(n - 1);
+  return true;
+}
+
+/// From end to end.
+double shortestRow(const Patch& patch) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& row : patch.points) shortest = std::min(shortest, (row[2] - row[0]).norm());
+  return shortest;
+}
+
+/// The patch so turned that its rows tell of the others: the longer the shortest of them, the
+/// better. It does not depend on which of its four sides the patch is given from, though symmetric
+/// patches have all of them alike: a direction that no mesh knows of decides between these.
+Patch turnedForRows(const Patch& patch) {
+  const Vec3d direction(1, 0.7548776662466927, 0.5698402909980532);  // plastic ratio, its powers
+  const auto along = [&](const Vec3d& from, const Vec3d& to) { return direction.dot(to - from); };
+  Patch turned = quarterTurn(patch);
+  constexpr double kMuch = 1.001;
+  const double here = shortestRow(patch);
+  const double there = shortestRow(turned);
+  const auto& p = patch.points;
+  const bool alike = here <= kMuch * there && there <= kMuch * here;
+  const bool turn =
+      alike ? std::abs(along(p[0][1], p[2][1])) > std::abs(along(p[1][0], p[1][2])) : there > here;
+  if (!turn) turned = patch;
+  const auto& q = turned.points;
+  return along(q[0][1], q[2][1]) < 0 ? quarterTurn(quarterTurn(turned)) : turned;
+}
+
+/// Width of what the descendants cover, about: a quarter of each face, beside half of the row.
+double meanWidth(const Patch& patch) {
+  const auto& p = patch.points;
+  double area = 0;
+  for (std::size_t u = 0; u < 2; ++u)
+    for (std::size_t v = 0; v < 2; ++v)
+      area += (p[u + 1][v + 1] - p[u][v]).cross(p[u][v + 1] - p[u + 1][v]).norm() / 2;
+  return area / 4 / ((p[1][2] - p[1][0]).norm() / 2);
+}
+
+}  // namespace
+
+std::optional<ThinPatch> thinPatch(const Patch& patch, int levels) {
+  constexpr int kLeastLevels = 4;  // fewer vertices are not worth it
+  constexpr int kMostLevels = 30;
+  if (levels < kLeastLevels || levels > kMostLevels || patch.quadrants != kAllQuadrants)
+    return std::nullopt;
+  ThinPatch thin{turnedForRows(patch), levels, {}};
+  constexpr std::int64_t kWorth = 4;  // vertices of a tile cost less than those of rows
+  constexpr std::int64_t kColumns = 2;
+  std::int64_t limit = (std::int64_t{1} << (2 * levels)) / kWorth;
+  constexpr double kWidestStrip = 0.6;
+  const auto mostStrips = static_cast<double>((limit >> levels) - kColumns - 1);
+  if (!(meanWidth(thin.patch) <= kWidestStrip * mostStrips)) return std::nullopt;
+
+  const double step = std::ldexp(PatchSteps(thin.patch).v.maxCoeff(), -levels);
+  std::optional<ThinPatch> best;
+  for (; thin.levels <= levels + 1; ++thin.levels) {
+    const std::int64_t n = std::int64_t{1} << thin.levels;
+    if (!setRows(thin.patch, thin.levels, limit / n - kColumns, thin.rows)) continue;
+    // Smaller steps along rows let these be farther apart; it pays where steps are long.
+    constexpr double kLongStep = 2.0 / 3;
+    if (step < kLongStep) return thin;
+    best = thin;
+    limit = (static_cast<std::int64_t>(thin.rows.size()) + kColumns) * n - 1;
+  }
+  return best;
+}
+
+}  // namespace vox
