@@ -6,6 +6,7 @@
 #include "libvox/prepare/repair.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/patch_strips.h"
+#include "libvox/subdivide/sizes.h"
 #include "libvox/subdivide/stop.h"
 #include "libvox/subdivide/vertex_split.h"
 #include "tests/shapes.h"
@@ -231,6 +232,45 @@ TEST_CASE("a patch as wide as long, one of few levels and one at a free boundary
   Patch open = plane(0.3, 30);
   open.quadrants = 0xE;
   CHECK_FALSE(isThin(open));
+}
+
+TEST_CASE("a patch of which part turns back has fewer vertices in parts, at their own depths",
+          "[subdivide][property]") {
+  RandomPatches patches{std::mt19937(9)};
+  int split = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const double length = patches.uniform(100, 300);
+    const Patch patch = patches.folded(length, 0.02 * length);
+    const auto thin = thinPatch(patch, patchDepth(patch));
+    if (!thin) continue;
+    std::int64_t vertices = 0;
+    int parts = 0;
+    const auto requireFine = [](const Patch& part, int levels) {
+      const PatchSteps steps(part);
+      REQUIRE((steps.u + steps.v).maxCoeff() <= std::ldexp(kVertexConversionSpan, levels));
+    };
+    forParts(
+        patch, 1,
+        [&](const ThinPatch& part, int) {
+          requireFine(part.patch, part.levels);
+          vertices += part.vertices();
+          ++parts;
+        },
+        [&](const Patch& part, int levels, int level) {
+          requireFine(part, levels);
+          CHECK(level > 1);
+          vertices += std::int64_t{1} << (2 * levels);
+          ++parts;
+        });
+    CAPTURE(trial, parts, thin->vertices(), vertices);
+    if (parts == 1) {
+      CHECK(vertices == thin->vertices());
+    } else {
+      CHECK(parts % 3 == 1);  // each split puts four in the place of one
+      ++split;
+    }
+  }
+  CHECK(split > 10);
 }
 
 TEST_CASE("the outermost vertices do for a patch without width", "[subdivide]") {

@@ -60,12 +60,12 @@ void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
                   const Progress& progress, VertexNormals& normals, Samplers& samplers) {
   const LevelOneVertex vertex = normals.vertices.at(corner);
   // As many vertices of a patch as blacken voxels: with fewer, voxels would be left out.
-  const auto sample = [&](const Patch& partial) {
-    const int levels = patchDepth(partial);
-    if (const auto thin = thinPatch(partial, levels))
-      sampleThin(*thin, progress, samplers.local());
-    else
-      samplePatch(continued(partial), levels, progress, samplers);
+  const auto sample = [&](const Patch& patch) {
+    forParts(
+        patch, 0, [&](const ThinPatch& thin, int) { sampleThin(thin, progress, samplers.local()); },
+        [&](const Patch& part, int levels, int) {
+          samplePatch(continued(part), levels, progress, samplers);
+        });
   };
   if (vertex.regular) return sample(vertex.patch);
   const VertexFaces faces = normals.vertices.facesAt(corner);

@@ -71,7 +71,7 @@ class Decisions {
   void decideRegular(Index v, const Patch& patch) {
     levelsToGo_[v] = patchDepth(patch);
     if (!thinPatch(patch, levelsToGo_[v])) return;
-    emitRegular(patch, levelsToGo_[v], number_, sink_);
+    emitRegular(patch, number_, sink_);
     levelsToGo_[v] = kEmitted;
   }
 

@@ -102,11 +102,10 @@ bool LocalSurface::isInside(const Corner& at) const {
 /// Emits a regular vertex of `level`; those that are fine enough are collected.
 void LocalSurface::emitSmall(const Patch& patch, int level, std::vector<Vec3d>& finished,
                              SurfaceSink& sink) {
-  const int levels = patchDepth(patch);
-  if (levels == 0)
+  if (patchDepth(patch) == 0)
     finished.push_back(patch.points[1][1]);
   else
-    emitRegular(patch, levels, level, sink);
+    emitRegular(patch, level, sink);
 }
 
 /// The last step at a level-1 vertex inside the surface.

@@ -2,7 +2,6 @@
 
 #include "libvox/subdivide/thin_patch.h"
 
-#include "libvox/mesh/patch_parts.h"
 #include "libvox/subdivide/patch_strips.h"
 #include "libvox/subdivide/sizes.h"
 
@@ -14,6 +13,9 @@
 
 namespace vox {
 namespace {
+
+/// Vertices of a tile that cost as much as one of a row.
+constexpr std::int64_t kWorth = 4;
 
 /// Adds the rows that are needed between i and j. False if there would be more than `most`.
 bool addBetween(const PatchStrips& strips, std::int64_t i, std::int64_t j, std::int64_t most,
@@ -79,7 +81,6 @@ std::optional<ThinPatch> thinPatch(const Patch& patch, int levels) {
   if (levels < kLeastLevels || levels > kMostLevels || patch.quadrants != kAllQuadrants)
     return std::nullopt;
   ThinPatch thin{turnedForRows(patch), levels, {}};
-  constexpr std::int64_t kWorth = 4;  // vertices of a tile cost less than those of rows
   constexpr std::int64_t kColumns = 2;
   std::int64_t limit = (std::int64_t{1} << (2 * levels)) / kWorth;
   constexpr double kWidestStrip = 0.6;
@@ -95,9 +96,24 @@ std::optional<ThinPatch> thinPatch(const Patch& patch, int levels) {
     constexpr double kLongStep = 2.0 / 3;
     if (step < kLongStep) return thin;
     best = thin;
-    limit = (static_cast<std::int64_t>(thin.rows.size()) + kColumns) * n - 1;
+    limit = thin.vertices() - 1;
   }
   return best;
+}
+
+bool childrenAreCheaper(const ThinPatch& thin) {
+  constexpr std::size_t kManyRows = 8;
+  if (thin.rows.size() <= kManyRows) return false;
+  double vertices = 0;  // of the children
+  for (const auto& pair : childrenOf(thin.patch))
+    for (const Patch& child : pair) {
+      const int levels = patchDepth(child);
+      const auto rows = thinPatch(child, levels);
+      vertices += rows ? static_cast<double>(rows->vertices())
+                       : std::ldexp(1.0, 2 * levels) / static_cast<double>(kWorth);
+    }
+  constexpr double kFarFewer = 0.75;
+  return vertices <= kFarFewer * static_cast<double>(thin.vertices());
 }
 
 }  // namespace vox

@@ -27,16 +27,15 @@ void emitThin(const ThinPatch& thin, int level, SurfaceSink& sink) {
 }  // namespace
 
 void emitRegular(const Patch& patch, int level, SurfaceSink& sink) {
-  emitRegular(patch, patchDepth(patch), level, sink);
-}
-
-void emitRegular(const Patch& patch, int levels, int level, SurfaceSink& sink) {
-  if (levels == 0)
-    sink.points({&patch.points[1][1], 1}, level);
-  else if (const auto thin = thinPatch(patch, levels))
-    emitThin(*thin, level, sink);
-  else
-    sink.patch(patch, levels, level + levels);
+  forParts(
+      patch, level,
+      [&](const ThinPatch& thin, int levelOfPart) { emitThin(thin, levelOfPart, sink); },
+      [&](const Patch& part, int levels, int levelOfPart) {
+        if (levels == 0)
+          sink.points({&part.points[1][1], 1}, levelOfPart);
+        else
+          sink.patch(part, levels, levelOfPart + levels);
+      });
 }
 
 Patch VertexSplit::childInR() const {

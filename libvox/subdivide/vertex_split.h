@@ -57,10 +57,8 @@ struct VertexSplit {
   void emitInK(int level, SurfaceSink& sink) const;
 };
 
-/// Gives a regular vertex of `level` to the sink, at its depth: as a point, as a patch, or, of a
-/// thin patch, as the rows that do for it and the two outermost columns.
+/// Gives a regular vertex of `level` to the sink, at its depth: as a point, as a patch, or, where
+/// it is thin, as the rows that do for it and the two outermost columns.
 void emitRegular(const Patch& patch, int level, SurfaceSink& sink);
-/// The same, of the depth that patchDepth says.
-void emitRegular(const Patch& patch, int levels, int level, SurfaceSink& sink);
 
 }  // namespace vox
