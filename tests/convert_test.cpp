@@ -109,6 +109,18 @@ TEST_CASE("no path of white voxels joins the sides of a long thin bar", "[pipeli
   }
 }
 
+TEST_CASE("of a needle few vertices are made, and none of it is lost", "[pipeline]") {
+  const PolygonMesh needle = test::meshOf({{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}, {0.5, 0.3, 4000}},
+                                          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  ConvertOptions options;
+  options.dim = 3000;
+  const Conversion conversion = convert(sceneOf(needle), options);
+  const ObjectReport& part = conversion.report.objects[0];
+  CHECK(part.vertices < 150 * part.activeVoxels);
+  // A smoothed tetrahedron keeps more than half of its length.
+  CHECK(part.activeVoxels > 1500);
+}
+
 TEST_CASE("removing a voxel that the surface needs opens a leak that the check sees",
           "[pipeline]") {
   const PolygonMesh shape = test::dodecahedron();

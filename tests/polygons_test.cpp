@@ -412,18 +412,6 @@ TEST_CASE("vertices lie in the 26-separating voxels of the polygons that fit int
   }
 }
 
-TEST_CASE("of a needle few vertices are made, and none of it is lost", "[pipeline]") {
-  const PolygonMesh needle = test::meshOf({{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}, {0.5, 0.3, 4000}},
-                                          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
-  ConvertOptions options;
-  options.dim = 3000;
-  const Conversion conversion = convert(sceneOf(needle), options);
-  const ObjectReport& part = conversion.report.objects[0];
-  CHECK(part.vertices < 150 * part.activeVoxels);
-  // A smoothed tetrahedron keeps more than half of its length.
-  CHECK(part.activeVoxels > 1500);
-}
-
 TEST_CASE("triangles for others keep to the rule and are the same for any threads",
           "[polygons][parallel]") {
   SubdivisionLevel base = baseLevel(test::dodecahedron());

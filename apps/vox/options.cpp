@@ -143,8 +143,8 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
       .add_option(
           "--voxelize", arguments.voxelize,
           "How the surface becomes voxels: by its vertices (vertex; needs --until voxel), by "
-          "scanning polygons (polygon), or what is faster (auto) (default: the scene's, or "
-          "auto)")
+          "scanning polygons (polygon), or by vertices where these can do it (auto) (default: the "
+          "scene's, or auto)")
       ->type_name("auto|vertex|polygon")
       ->group("Voxels");
   command

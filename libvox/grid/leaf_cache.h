@@ -48,6 +48,7 @@ class LeafCache {
   struct Positions {
     using Column = std::array<double, kPositionsAtOnce>;
     alignas(64) std::array<Column, 3> axis{};
+    Vec3d operator[](std::size_t i) const { return {axis[0][i], axis[1][i], axis[2][i]}; }
   };
   /// The same for the first `count` of them.
   void add(const Positions& positions, std::size_t count);

@@ -11,6 +11,7 @@
 #include "libvox/subdivide/stop.h"
 #include "libvox/subdivide/thin_patch.h"
 #include "libvox/voxelize/normal_sampler.h"
+#include "libvox/voxelize/row.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
@@ -43,13 +44,19 @@ void samplePatch(const Patch& patch, int levels, const Progress& progress, Sampl
 /// The vertices that emitRegular makes of it.
 void sampleThin(const ThinPatch& thin, const Progress& progress, NormalSampler& sampler) {
   const std::int64_t n = std::int64_t{1} << thin.levels;
+  constexpr auto kMostOfRow = static_cast<std::int64_t>(LeafCache::kPositionsAtOnce);
+  LeafCache::Positions positions;
   const auto sampleRow = [&](const Patch& patch, std::int64_t i) {
     progress.check();
     const CurvePoints row = rowOf(patch, {i, n});
     const LimitNormals normals(patch, SplinePlace::ofVertex(i, n));
-    for (std::int64_t j = 0; j < n; ++j)
-      sampler.point(PatchWeights(j, n)(row[0], row[1], row[2]),
-                    normals.at(SplinePlace::ofVertex(j, n)));
+    for (std::int64_t first = 0; first < n; first += kMostOfRow) {
+      const std::int64_t count = std::min(kMostOfRow, n - first);
+      setRow(row, n, first, static_cast<std::size_t>(count), positions);
+      for (std::int64_t j = 0; j < count; ++j)
+        sampler.point(positions[static_cast<std::size_t>(j)],
+                      normals.at(SplinePlace::ofVertex(first + j, n)));
+    }
   };
   for (const std::int64_t i : thin.rows) sampleRow(thin.patch, i);
   const Patch across = quarterTurn(thin.patch);

@@ -228,7 +228,7 @@ double PatchStrips::placeAcross(std::int64_t i) const {
 ///   f (D - sigma S' - sigma^2 / 2 H) + f (1 - f) / 2 (sigma^2 H - w^2 G):
 /// with a sigma linear in x, quadratic in x.
 double PatchStrips::longestSideAlongRow(const Strip& strip) const {
-  const auto& [first, second, from, to, rows] = strip;
+  const auto& [first, second, from, to, steps] = strip;
   const Vec3d a = 2.0 * (first[1] - first[0]);
   const Vec3d b = 2.0 * (first[2] - first[1]);
   const Vec3d h = b - a;
@@ -247,7 +247,7 @@ double PatchStrips::longestSideAlongRow(const Strip& strip) const {
     across.add(d[k] - along[k] - squares[k] / 2 * h);
     bulge.add(squares[k] * h - width * width * bendAcross_[k]);
   }
-  const double step = std::max((1 + std::abs(end - start)) / static_cast<double>(n_), most / rows);
+  const double step = std::max((1 + std::abs(end - start)) / static_cast<double>(n_), most / steps);
   const Vec3d speed = a.cwiseAbs().cwiseMax(b.cwiseAbs()) + most * h.cwiseAbs();
   return (step * speed + across.size() + bulge.size() / 8.0).maxCoeff();
 }
@@ -255,7 +255,7 @@ double PatchStrips::longestSideAlongRow(const Strip& strip) const {
 /// With a cubic as the curve, fitted to the walk, and s from 0 to 1 along a straight line: for
 /// strips whose rows turn back on themselves.
 double PatchStrips::longestSideAlongCubic(const Strip& strip) const {
-  const auto& [first, second, from, to, rows] = strip;
+  const auto& [first, second, from, to, steps] = strip;
   if (isWide(first, second)) return kNoBound;
   const std::array<Quadratic, 4> curves = {first, second, partOf(columns_[0], from, to),
                                            partOf(columns_[1], from, to)};
@@ -275,7 +275,7 @@ double PatchStrips::longestSideAlongCubic(const Strip& strip) const {
   places[2] = (places[2] - least) / range;
   const Lanes change = (places[1] / 2 - places[0]).abs().max((places[2] - places[1] / 2).abs());
   const auto columns = static_cast<double>(n_);
-  const double step = (2 * change / Lanes(columns, columns, rows, rows)).maxCoeff();
+  const double step = (2 * change / Lanes(columns, columns, steps, steps)).maxCoeff();
 
   const Cubic cubic = cubicAlong(sides, places);
   if (!std::all_of(cubic.begin(), cubic.end(), [](const Vec3d& c) { return c.allFinite(); }))

@@ -20,7 +20,7 @@ using Quadratic = std::array<Vec3d, 3>;
 /// the size of E.
 class PatchStrips {
  public:
-  /// @param patch   complete; must outlive this
+  /// @param patch   complete, of finite points; must outlive this
   /// @param levels  N = 2^levels
   PatchStrips(const Patch& patch, int levels);
 
@@ -29,11 +29,11 @@ class PatchStrips {
   bool fillable(std::int64_t i, std::int64_t j) const;
 
  private:
-  /// Between two rows: where they lie, from 0 to 1 across the patch, and the steps between them.
+  /// Between two rows, which lie at places from 0 to 1 across the patch, so many steps apart.
   struct Strip {
     Quadratic first, second;
     double from, to;
-    double rows;
+    double steps;
   };
   /// Upper bounds for the triangles (L-inf, in voxels), from a curve each.
   double longestSideAlongRow(const Strip& strip) const;

@@ -14,8 +14,8 @@
 namespace vox {
 namespace {
 
-/// Vertices of a tile that cost as much as one of a row.
-constexpr std::int64_t kWorth = 4;
+/// What a vertex of a row costs, in vertices of a tile.
+constexpr std::int64_t kCostOfRows = 4;
 
 /// Adds the rows that are needed between i and j. False if there would be more than `most`.
 bool addBetween(const PatchStrips& strips, std::int64_t i, std::int64_t j, std::int64_t most,
@@ -44,23 +44,26 @@ double shortestRow(const Patch& patch) {
   return shortest;
 }
 
+/// A number for how far a patch goes from its first row to its last, negative if seen from the
+/// other end. Symmetric patches have another one for their columns, too.
+double extentAcross(const Patch& patch) {
+  const Vec3d direction(1, 0.7548776662466927, 0.5698402909980532);  // that no mesh knows of
+  const auto& p = patch.points;
+  return direction.dot((p[2][1] - p[0][1]) + 0.3 * (p[2][2] - p[0][0]) + 0.1 * (p[2][0] - p[0][2]));
+}
+
 /// The patch so turned that its rows tell of the others: the longer the shortest of them, the
-/// better. It does not depend on which of its four sides the patch is given from, though symmetric
-/// patches have all of them alike: a direction that no mesh knows of decides between these.
+/// better. It is to be the same from whichever of its four sides the patch is given.
 Patch turnedForRows(const Patch& patch) {
-  const Vec3d direction(1, 0.7548776662466927, 0.5698402909980532);  // plastic ratio, its powers
-  const auto along = [&](const Vec3d& from, const Vec3d& to) { return direction.dot(to - from); };
-  Patch turned = quarterTurn(patch);
+  const Patch turned = quarterTurn(patch);
   constexpr double kMuch = 1.001;
   const double here = shortestRow(patch);
   const double there = shortestRow(turned);
-  const auto& p = patch.points;
   const bool alike = here <= kMuch * there && there <= kMuch * here;
   const bool turn =
-      alike ? std::abs(along(p[0][1], p[2][1])) > std::abs(along(p[1][0], p[1][2])) : there > here;
-  if (!turn) turned = patch;
-  const auto& q = turned.points;
-  return along(q[0][1], q[2][1]) < 0 ? quarterTurn(quarterTurn(turned)) : turned;
+      alike ? std::abs(extentAcross(patch)) > std::abs(extentAcross(turned)) : there > here;
+  const Patch& chosen = turn ? turned : patch;
+  return extentAcross(chosen) < 0 ? quarterTurn(quarterTurn(chosen)) : chosen;
 }
 
 /// Width of what the descendants cover, about: a quarter of each face, beside half of the row.
@@ -82,8 +85,8 @@ std::optional<ThinPatch> thinPatch(const Patch& patch, int levels) {
     return std::nullopt;
   ThinPatch thin{turnedForRows(patch), levels, {}};
   constexpr std::int64_t kColumns = 2;
-  std::int64_t limit = (std::int64_t{1} << (2 * levels)) / kWorth;
-  constexpr double kWidestStrip = 0.6;
+  std::int64_t limit = (std::int64_t{1} << (2 * levels)) / kCostOfRows;
+  constexpr double kWidestStrip = 0.6;  // voxels: the step along rows takes the rest
   const auto mostStrips = static_cast<double>((limit >> levels) - kColumns - 1);
   if (!(meanWidth(thin.patch) <= kWidestStrip * mostStrips)) return std::nullopt;
 
@@ -110,7 +113,7 @@ bool childrenAreCheaper(const ThinPatch& thin) {
       const int levels = patchDepth(child);
       const auto rows = thinPatch(child, levels);
       vertices += rows ? static_cast<double>(rows->vertices())
-                       : std::ldexp(1.0, 2 * levels) / static_cast<double>(kWorth);
+                       : std::ldexp(1.0, 2 * levels) / static_cast<double>(kCostOfRows);
     }
   constexpr double kFarFewer = 0.75;
   return vertices <= kFarFewer * static_cast<double>(thin.vertices());

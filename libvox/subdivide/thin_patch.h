@@ -12,18 +12,12 @@ namespace vox {
 
 /// A regular vertex whose descendants crowd: a patch much longer than wide, or one whose rows and
 /// columns run nearly the same way, as around a face of thousands of sides. Of the N x N vertices
-/// it becomes, N = 2^levels, the outermost and some whole rows do for all of them.
-///
-/// Why they do. Between two such rows the patch is a strip. Say that all of it lies within a small
-/// box E of the first of its rows, each point (i.e. each walk along the strip) at some place s of
-/// that row, continued beyond its ends. Then the walk around the strip, along one row, a column,
-/// the other row and back, can be filled with triangles whose corners are as close in s as
-/// neighbours on the walk: cut off the corner where s is largest, again and again. No side of a
-/// triangle is then longer than a step along the row, plus the size of E. With sides of at most a
-/// voxel the strip, so filled, is as good as all the vertices in it, and what lies around it sees
-/// the outermost vertices of all the N x N, as before. Source: DESIGN section 6 for mixed depths.
+/// it becomes, N = 2^levels, the outermost and some whole rows do for all of them: the strips
+/// between these rows can be filled from around with faces as small as vertex conversion needs
+/// (patch_strips.h), and what lies around the patch sees the outermost of all N x N vertices, as it
+/// would of a whole one (mixed depths, DESIGN section 6).
 struct ThinPatch {
-  Patch patch;  ///< the patch or its quarterTurn: rows run along v
+  Patch patch;  ///< seen from one of its four sides: rows run along v
   int levels;   ///< of its N vertices along u and v; one more than the patch needs, or as many
   std::vector<std::int64_t> rows;  ///< ascending; 0 and N - 1 among them
   /// With the two columns.
@@ -31,6 +25,7 @@ struct ThinPatch {
 };
 
 /// If the vertex is one and it pays.
+/// @param patch   of finite points
 /// @param levels  that the patch needs (patchDepth)
 std::optional<ThinPatch> thinPatch(const Patch& patch, int levels);
 

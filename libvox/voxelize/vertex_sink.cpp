@@ -8,6 +8,8 @@
 #include "libvox/voxelize/tile.h"
 #include "libvox/voxelize/voxel_box.h"
 
+#include <algorithm>
+
 namespace vox {
 namespace {
 
