@@ -89,13 +89,31 @@ struct RandomPatches {
         0.002 * length);
   }
 
-  /// Bent, its rows in another way than its columns.
+  /// Along a curve at places that are any quadratic function of u and v.
+  Patch along(double length, double width) {
+    const Vec3d line = length * direction();
+    const Vec3d turn = uniform(0, 0.5) * length * direction();
+    const double u1 = uniform(-1, 1), uu = uniform(-1, 1), vv = uniform(-0.5, 0.5);
+    const double uv = uniform(-1, 1);
+    return make(
+        [&](double u, double v) {
+          const double s = v + u1 * u + uu * u * u + uv * u * v + vv * v * v;
+          return Vec3d(s * line + s * s * turn);
+        },
+        uniform(0, width));
+  }
+  /// Bent from row to row, or along them, or both.
   Patch bent(double length, double width) {
     const Vec3d along = length * direction();
-    const Vec3d turn = uniform(0, 1) * length * direction();
-    const Vec3d across = uniform(0, 1) * along + uniform(0, width) * direction();
-    return make([&](double u, double v) { return Vec3d(u * across + v * along + v * v * turn); },
-                width / 4);
+    const Vec3d turnV = uniform(0, 1) * length * direction();
+    const Vec3d turnU = uniform(0, 1) * length * direction();
+    const Vec3d twist = uniform(0, 1) * length * direction();
+    const Vec3d across = uniform(-1, 1) * along + uniform(0, width) * direction();
+    return make(
+        [&](double u, double v) {
+          return Vec3d(u * across + v * along + u * u * turnU + v * v * turnV + u * v * twist);
+        },
+        uniform(0, width));
   }
   /// Without any order, around a line.
   Patch crumpled(double length, double width) {
@@ -112,6 +130,8 @@ struct RandomPatches {
       case 2:
         return folded(1, width);
       case 3:
+        return along(1, width);
+      case 4:
         return bent(1, width);
       default:
         return crumpled(1, width);
@@ -218,14 +238,15 @@ TEST_CASE("the walk around each strip of a thin patch can be filled with faces o
 TEST_CASE("a strip is called fillable only up to the size where it is", "[subdivide][property]") {
   RandomPatches patches{std::mt19937(8)};
   double nearest = 0;
-  for (int trial = 0; trial < 6000; ++trial) {
+  for (int trial = 0; trial < 12000; ++trial) {
     const double width = patches.uniform(0, 0.5);
-    const Patch shape = patches.any(trial % 5, width);
+    const Patch shape = patches.any(trial % 6, width);
     const int levels = 2 + trial % 3;
     const std::int64_t n = std::int64_t{1} << levels;
-    const auto i = static_cast<std::int64_t>(patches.uniform(0, static_cast<double>(n - 1)));
-    const auto j = static_cast<std::int64_t>(
+    auto i = static_cast<std::int64_t>(patches.uniform(0, static_cast<double>(n - 1)));
+    auto j = static_cast<std::int64_t>(
         patches.uniform(static_cast<double>(i) + 1, static_cast<double>(n)));
+    if (trial % 2 == 0) i = 0, j = n - 1;
     double yes = 0;
     double no = 1000;
     Patch largest;
@@ -272,7 +293,7 @@ TEST_CASE("a patch is the same thin one from all of its sides", "[subdivide][pro
   int thin = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const double length = patches.uniform(20, 60);
-    Patch patch = patches.any(trial % 5, 0.02);
+    Patch patch = patches.any(trial % 6, 0.02);
     if (trial % 3 == 0)  // u and v alike
       for (std::size_t u = 0; u < 3; ++u)
         for (std::size_t v = 0; v < u; ++v) patch.points[u][v] = patch.points[v][u];
