@@ -2,7 +2,6 @@
 
 #include "libvox/subdivide/patch_strips.h"
 
-#include "libvox/mesh/patch_parts.h"
 #include "libvox/subdivide/stop.h"
 
 #include <Eigen/LU>

@@ -2,7 +2,6 @@
 
 #include "libvox/subdivide/stop.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace vox {
