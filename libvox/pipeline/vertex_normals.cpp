@@ -78,7 +78,11 @@ void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
   const VertexFaces faces = normals.vertices.facesAt(corner);
   if (!vertex.whole()) return samplers.local().point(vertex.at, faces.f.normal);
   normals.array.set(vertex, rule.of(vertex, &faces, {}), true);
-  for (const VertexArray::Block& block : normals.array.blocks()) sample(block.patch);
+  for (const VertexArray::Block& block : normals.array.blocks())
+    if (block.depth == VertexDepth{})
+      samplers.local().patch(continued(block.patch), 0, 0);
+    else
+      sample(block.patch);
 }
 
 }  // namespace

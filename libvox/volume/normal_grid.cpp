@@ -4,32 +4,61 @@
 
 #include "libvox/core/parallel.h"
 
-#include <openvdb/tree/LeafManager.h>
+#include <memory>
+#include <vector>
 
 namespace vox {
 namespace {
+
+using MaskPage = openvdb::MaskTree::RootNodeType::ChildNodeType::ChildNodeType;
+using Upper = openvdb::Vec3STree::RootNodeType::ChildNodeType;
+using Page = Upper::ChildNodeType;
+using Leaf = Page::ChildNodeType;
+
+const openvdb::Vec3s kZero(0, 0, 0);
 
 /// Of length 1, or 0.
 openvdb::Vec3s directionOf(const VoxelMeans::Sum& sum) {
   const openvdb::Vec3d v(static_cast<double>(sum.x), static_cast<double>(sum.y),
                          static_cast<double>(sum.z));
   const double length = v.length();
-  return length > 0 ? openvdb::Vec3s(v * (1 / length)) : openvdb::Vec3s(0);
+  return length > 0 ? openvdb::Vec3s(v * (1 / length)) : kZero;
+}
+
+/// @param sum  of its first black voxel; the others' follow
+std::unique_ptr<Leaf> leafOf(const MaskPage::ChildNodeType& mask, const VoxelMeans::Sum* sum) {
+  auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), mask.origin(), kZero);
+  leaf->setValueMask(mask.valueMask());
+  leaf->allocate();
+  // Once over its memory: most of the time goes there.
+  openvdb::Vec3s* const values = leaf->buffer().data();
+  for (openvdb::Index i = 0; i < Leaf::SIZE; ++i)
+    values[i] = mask.isValueOn(i) ? directionOf(*sum++) : kZero;
+  return leaf;
+}
+
+std::unique_ptr<Page> pageOf(const MaskPage& mask, const VoxelMeans& means) {
+  auto page = std::make_unique<Page>(mask.origin(), kZero);
+  for (auto leaf = mask.cbeginChildOn(); leaf; ++leaf)
+    page->addLeaf(leafOf(*leaf, means.sumsOf(leaf->origin())).release());
+  return page;
 }
 
 }  // namespace
 
 openvdb::Vec3SGrid::Ptr normalGrid(const openvdb::MaskGrid& mask, const VoxelMeans& means) {
-  const openvdb::Vec3s zero(0, 0, 0);
-  auto tree =
-      std::make_shared<openvdb::Vec3STree>(mask.tree(), zero, zero, openvdb::TopologyCopy());
-  openvdb::tree::LeafManager<openvdb::Vec3STree> leaves(*tree);
-  constexpr std::size_t kLeavesPerTask = 64;
-  forEach(leaves.leafCount(), kLeavesPerTask, [&](std::size_t i) {
-    auto& leaf = leaves.leaf(i);
-    const VoxelMeans::Sum* sum = means.sumsOf(leaf.origin());
-    for (auto voxel = leaf.beginValueOn(); voxel; ++voxel) voxel.setValue(directionOf(*sum++));
-  });
+  std::vector<const MaskPage*> maskPages;
+  mask.tree().getNodes(maskPages);
+  std::vector<std::unique_ptr<Page>> pages(maskPages.size());
+  forEach(pages.size(), 1, [&](std::size_t i) { pages[i] = pageOf(*maskPages[i], means); });
+
+  auto tree = std::make_shared<openvdb::Vec3STree>(kZero);
+  for (auto& page : pages) {
+    const openvdb::Coord origin = page->origin();
+    if (tree->probeNode<Upper>(origin) == nullptr)
+      tree->root().addChild(new Upper(origin, kZero));
+    tree->probeNode<Upper>(origin)->addChild(page.release());
+  }
   auto grid = openvdb::Vec3SGrid::create(tree);
   grid->setTransform(mask.transform().copy());
   grid->setName("normal");
