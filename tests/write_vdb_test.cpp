@@ -1,6 +1,7 @@
 #include "libvox/io/write_vdb.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -24,9 +25,39 @@ std::vector<openvdb::GridBase::Ptr> someGrids(int value) {
   return {density, mask};
 }
 
-std::string bytesOf(const std::vector<openvdb::GridBase::Ptr>& grids) {
+/// More leaves than are written at a time, and values inside and outside that are not active.
+std::vector<openvdb::GridBase::Ptr> gridsOfManyLeaves() {
+  constexpr int kSide = 18;  // leaves
+  const openvdb::Vec3s flat(0, 0, 1);
+  auto mask = openvdb::MaskGrid::create();
+  auto distance = openvdb::FloatGrid::create(3);
+  auto half = openvdb::FloatGrid::create(0);
+  auto normal = openvdb::Vec3SGrid::create(openvdb::Vec3s(0, 0, 0));
+  auto id = openvdb::Int32Grid::create(-1);  // of a type that is nothing special
+  for (int i = 0; i < kSide * kSide * kSide; ++i) {
+    const openvdb::Coord at(8 * (i / kSide / kSide) + i % 8, 8 * (i / kSide % kSide) - 50,
+                            8 * (i % kSide));
+    mask->tree().setValueOn(at);
+    distance->tree().setValueOn(at, static_cast<float>(i % 100) / 64);
+    distance->tree().setValueOff(at.offsetBy(0, 1, 0), -3);
+    half->tree().setValueOn(at, static_cast<float>(i) / 7);
+    normal->tree().setValueOn(at, flat);
+    id->tree().setValueOn(at, i);
+  }
+  distance->setGridClass(openvdb::GRID_LEVEL_SET);
+  half->setSaveFloatAsHalf(true);
+  mask->setName("mask");
+  distance->setName("distance");
+  half->setName("half");
+  normal->setName("normal");
+  id->setName("id");
+  return {mask, distance, half, normal, id};
+}
+
+std::string bytesOf(const std::vector<openvdb::GridBase::Ptr>& grids,
+                    std::optional<Compression> compression = {}) {
   std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
-  writeVdb(stream, grids, {});
+  writeVdb(stream, grids, {}, compression);
   return stream.str();
 }
 
@@ -61,6 +92,31 @@ TEST_CASE("OpenVDB reads back every voxel and the UUID", "[io]") {
   for (int i = 0; i < 1000; ++i)
     CHECK(density->tree().getValue({i, 3 * i % 97, 5}) == static_cast<float>(i));
   CHECK(mask->tree().isValueOn({1, 2, 3}));
+}
+
+TEST_CASE("grids come out in the bytes that OpenVDB writes by itself", "[io][parallel]") {
+  openvdb::initialize();
+  const auto withoutUuid = [](std::string bytes) { return bytes.replace(21, 36, 36, '-'); };
+  for (const auto compression : {Compression::kBlosc, Compression::kZip, Compression::kPlain})
+    for (const auto& grid : gridsOfManyLeaves()) {
+      CAPTURE(nameIn(kCompressionNames, compression), grid->getName());
+      const test::TemporaryFolder folder;
+      const auto path = folder.path() / "grid.vdb";
+      openvdb::io::File file(path.string());
+      file.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK |
+                          (compression == Compression::kBlosc ? openvdb::io::COMPRESS_BLOSC
+                           : compression == Compression::kZip ? openvdb::io::COMPRESS_ZIP
+                                                              : openvdb::io::COMPRESS_NONE));
+      file.write({grid});
+      std::ifstream written(path, std::ios::binary);
+      const std::string theirs(std::istreambuf_iterator<char>(written), {});
+      for (const int threads : {1, 2, 8}) {
+        const bool same = onThreads(threads, [&] {
+          return withoutUuid(bytesOf({grid}, compression)) == withoutUuid(theirs);
+        });
+        CHECK(same);
+      }
+    }
 }
 
 TEST_CASE("a full disk is an error", "[io][error]") {

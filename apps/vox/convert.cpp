@@ -11,6 +11,7 @@
 #include "apps/vox/verify.h"
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
+#include "libvox/core/parallel.h"
 #include "libvox/core/stopwatch.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"
@@ -165,7 +166,8 @@ void runFrame(const Options& options, const Frame& frame, ConvertOptions convert
     conversion = convert(scene, convertOptions);
     if (options.verify) verify(conversion, scene, convertOptions);
     const Stopwatch writing;
-    write(options, frame.output, conversion, progress);
+    onThreads(options.common.run.threads,
+              [&] { write(options, frame.output, conversion, progress); });
     writeSeconds = writing.seconds();
     progress.finish();
   }

@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/hash.h"
+#include "libvox/io/parallel_grid.h"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
@@ -12,6 +13,7 @@
 #include <array>
 #include <cstring>
 #include <iostream>
+#include <iterator>
 #include <string>
 
 namespace vox {
@@ -103,8 +105,10 @@ void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& 
               const openvdb::MetaMap& fileMetadata, std::optional<Compression> compression) {
   SeekableArchive archive;
   archive.setCompression(flagsOf(compression.value_or(bestCompression())));
+  openvdb::GridCPtrVec views;
+  std::transform(grids.begin(), grids.end(), std::back_inserter(views), writtenInParallel);
   try {
-    archive.writeTo(stream, {grids.begin(), grids.end()}, fileMetadata);
+    archive.writeTo(stream, views, fileMetadata);
   } catch (const openvdb::Exception& error) {
     throw IoError(std::string("OpenVDB cannot write the grids: ") + error.what());
   }
