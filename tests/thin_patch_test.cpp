@@ -351,7 +351,7 @@ TEST_CASE("a patch of which part turns back has fewer vertices in parts, at thei
       REQUIRE((steps.u + steps.v).maxCoeff() <= std::ldexp(kVertexConversionSpan, levels));
     };
     forParts(
-        patch, 1,
+        PatchPart(patch), 1,
         [&](const ThinPatch& part, int) {
           requireFine(part.patch, part.levels);
           vertices += part.vertices();

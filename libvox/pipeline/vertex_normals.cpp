@@ -69,7 +69,8 @@ void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
   // As many vertices of a patch as blacken voxels: with fewer, voxels would be left out.
   const auto sample = [&](const Patch& patch) {
     forParts(
-        patch, 0, [&](const ThinPatch& thin, int) { sampleThin(thin, progress, samplers.local()); },
+        PatchPart(patch), 0,
+        [&](const ThinPatch& thin, int) { sampleThin(thin, progress, samplers.local()); },
         [&](const Patch& part, int levels, int) {
           samplePatch(continued(part), levels, progress, samplers);
         });

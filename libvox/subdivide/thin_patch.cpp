@@ -2,6 +2,7 @@
 
 #include "libvox/subdivide/thin_patch.h"
 
+#include "libvox/mesh/patch_parts.h"
 #include "libvox/subdivide/patch_strips.h"
 #include "libvox/subdivide/sizes.h"
 
@@ -84,17 +85,16 @@ std::optional<ThinPatch> thinPatch(const Patch& patch, int levels) {
   if (levels < kLeastLevels || levels > kMostLevels || patch.quadrants != kAllQuadrants)
     return std::nullopt;
   ThinPatch thin{turnedForRows(patch), levels, {}};
-  constexpr std::int64_t kColumns = 2;
   std::int64_t limit = (std::int64_t{1} << (2 * levels)) / kCostOfRows;
   constexpr double kWidestStrip = 0.6;  // voxels: the step along rows takes the rest
-  const auto mostStrips = static_cast<double>((limit >> levels) - kColumns - 1);
+  const auto mostStrips = static_cast<double>((limit >> levels) - ThinPatch::kColumns - 1);
   if (!(meanWidth(thin.patch) <= kWidestStrip * mostStrips)) return std::nullopt;
 
   const double step = std::ldexp(PatchSteps(thin.patch).v.maxCoeff(), -levels);
   std::optional<ThinPatch> best;
   for (; thin.levels <= levels + 1; ++thin.levels) {
     const std::int64_t n = std::int64_t{1} << thin.levels;
-    if (!setRows(thin.patch, thin.levels, limit / n - kColumns, thin.rows)) continue;
+    if (!setRows(thin.patch, thin.levels, limit / n - ThinPatch::kColumns, thin.rows)) continue;
     // Smaller steps along rows let these be farther apart; it pays where steps are long.
     constexpr double kLongStep = 2.0 / 3;
     if (step < kLongStep) return thin;
@@ -104,19 +104,19 @@ std::optional<ThinPatch> thinPatch(const Patch& patch, int levels) {
   return best;
 }
 
-bool childrenAreCheaper(const ThinPatch& thin) {
+std::optional<std::array<PatchPart, 4>> cheaperChildren(const ThinPatch& thin) {
   constexpr std::size_t kManyRows = 8;
-  if (thin.rows.size() <= kManyRows) return false;
-  double vertices = 0;  // of the children
-  for (const auto& pair : childrenOf(thin.patch))
-    for (const Patch& child : pair) {
-      const int levels = patchDepth(child);
-      const auto rows = thinPatch(child, levels);
-      vertices += rows ? static_cast<double>(rows->vertices())
-                       : std::ldexp(1.0, 2 * levels) / static_cast<double>(kCostOfRows);
-    }
+  if (thin.rows.size() <= kManyRows) return std::nullopt;
+  const auto [first, second] = childrenOf(thin.patch);
+  std::array children = {PatchPart(first[0]), PatchPart(first[1]), PatchPart(second[0]),
+                         PatchPart(second[1])};
+  double vertices = 0;
+  for (const PatchPart& child : children)
+    vertices += child.thin ? static_cast<double>(child.thin->vertices())
+                           : std::ldexp(1.0, 2 * child.levels) / static_cast<double>(kCostOfRows);
   constexpr double kFarFewer = 0.75;
-  return vertices <= kFarFewer * static_cast<double>(thin.vertices());
+  if (vertices > kFarFewer * static_cast<double>(thin.vertices())) return std::nullopt;
+  return children;
 }
 
 }  // namespace vox

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "libvox/mesh/patch.h"
-#include "libvox/mesh/patch_parts.h"
 #include "libvox/subdivide/stop.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -20,8 +20,10 @@ struct ThinPatch {
   Patch patch;  ///< seen from one of its four sides: rows run along v
   int levels;   ///< of its N vertices along u and v; one more than the patch needs, or as many
   std::vector<std::int64_t> rows;  ///< ascending; 0 and N - 1 among them
-  /// With the two columns.
-  std::int64_t vertices() const { return (static_cast<std::int64_t>(rows.size()) + 2) << levels; }
+  static constexpr std::int64_t kColumns = 2;
+  std::int64_t vertices() const {
+    return (static_cast<std::int64_t>(rows.size()) + kColumns) << levels;
+  }
 };
 
 /// If the vertex is one and it pays.
@@ -29,24 +31,27 @@ struct ThinPatch {
 /// @param levels  that the patch needs (patchDepth)
 std::optional<ThinPatch> thinPatch(const Patch& patch, int levels);
 
-/// Whether its four children, each as deep as it needs and thin if it is, have far fewer vertices:
-/// where part of a patch turns back on itself, or is wide.
-bool childrenAreCheaper(const ThinPatch& thin);
+/// A regular vertex, as deep as it needs, and thin if it is.
+struct PatchPart {
+  explicit PatchPart(const Patch& vertex)
+      : patch(vertex), levels(patchDepth(vertex)), thin(thinPatch(vertex, levels)) {}
+  Patch patch;
+  int levels;
+  std::optional<ThinPatch> thin;
+};
+
+/// The four children, if these have far fewer vertices: where part of a patch turns back on itself,
+/// or is wide.
+std::optional<std::array<PatchPart, 4>> cheaperChildren(const ThinPatch& thin);
 
 /// Calls thin(ThinPatch, level) or whole(patch, levels, level) for the parts that together are what
 /// becomes of a regular vertex of `level`: for itself, or for descendants of it.
 template <class Thin, class Whole>
-void forParts(const Patch& patch, int level, Thin&& thin, Whole&& whole) {
-  const int levels = patchDepth(patch);
-  const auto rows = thinPatch(patch, levels);
-  if (!rows) {
-    whole(patch, levels, level);
-  } else if (!childrenAreCheaper(*rows)) {
-    thin(*rows, level);
-  } else {
-    for (const auto& pair : childrenOf(rows->patch))
-      for (const Patch& child : pair) forParts(child, level + 1, thin, whole);
-  }
+void forParts(const PatchPart& part, int level, Thin&& thin, Whole&& whole) {
+  if (!part.thin) return whole(part.patch, part.levels, level);
+  const auto children = cheaperChildren(*part.thin);
+  if (!children) return thin(*part.thin, level);
+  for (const PatchPart& child : *children) forParts(child, level + 1, thin, whole);
 }
 
 }  // namespace vox

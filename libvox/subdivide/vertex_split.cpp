@@ -28,7 +28,7 @@ void emitThin(const ThinPatch& thin, int level, SurfaceSink& sink) {
 
 void emitRegular(const Patch& patch, int level, SurfaceSink& sink) {
   forParts(
-      patch, level,
+      PatchPart(patch), level,
       [&](const ThinPatch& thin, int levelOfPart) { emitThin(thin, levelOfPart, sink); },
       [&](const Patch& part, int levels, int levelOfPart) {
         if (levels == 0)

@@ -55,8 +55,7 @@ openvdb::Vec3SGrid::Ptr normalGrid(const openvdb::MaskGrid& mask, const VoxelMea
   auto tree = std::make_shared<openvdb::Vec3STree>(kZero);
   for (auto& page : pages) {
     const openvdb::Coord origin = page->origin();
-    if (tree->probeNode<Upper>(origin) == nullptr)
-      tree->root().addChild(new Upper(origin, kZero));
+    if (tree->probeNode<Upper>(origin) == nullptr) tree->root().addChild(new Upper(origin, kZero));
     tree->probeNode<Upper>(origin)->addChild(page.release());
   }
   auto grid = openvdb::Vec3SGrid::create(tree);
