@@ -2,6 +2,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "tests/failing_allocation.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -117,6 +118,32 @@ TEST_CASE("grids come out in the bytes that OpenVDB writes by itself", "[io][par
         CHECK(same);
       }
     }
+}
+
+TEST_CASE("memory that runs out while leaves are written is an error", "[io][error]") {
+  if (!test::FailingAllocation::possible()) return;
+  const std::vector<openvdb::GridBase::Ptr> grid = {gridsOfManyLeaves()[3]};
+  constexpr std::size_t kLarge = 4096;
+  bool failed = true;
+  int failures = 0;
+  for (int n = 0; failed; n += 79) {
+    std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
+    stream.str(std::string(1 << 22, ' '));  // needs no more
+    bool threw = false;
+    {
+      const test::FailingAllocation allocation(n, kLarge);
+      try {
+        onThreads(1, [&] { writeVdb(stream, grid, {}, Compression::kPlain); });
+      } catch (const std::bad_alloc&) {
+        threw = true;
+      }
+      failed = allocation.failed();
+    }
+    CAPTURE(n);
+    REQUIRE(threw == failed);
+    failures += failed;
+  }
+  CHECK(failures > 10);
 }
 
 TEST_CASE("a full disk is an error", "[io][error]") {

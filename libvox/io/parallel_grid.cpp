@@ -54,6 +54,7 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
 
   static std::string bytesOf(std::span<const Leaf* const> leaves, const Format& format) {
     std::ostringstream stream(std::ios::binary);
+    stream.exceptions(std::ios::badbit);  // else no memory would mean no bytes, and no error
     auto metadata = std::make_shared<openvdb::io::StreamMetadata>(format.metadata);
     openvdb::io::setStreamMetadataPtr(stream, metadata);
     for (const Leaf* leaf : leaves) leaf->writeBuffers(stream, format.half);

@@ -12,7 +12,7 @@ namespace vox {
 
 /// Writes grids in OpenVDB's own file format; values that are not active are left out. The random
 /// UUID of the file is replaced by a hash of everything else in it, so equal grids and metadata
-/// give equal bytes.
+/// give equal bytes. Leaves are packed on all threads of the caller's arena.
 ///
 /// @param compression  default: Blosc, or else zip, or else none, whichever the library has
 /// @param stream  empty, readable, writable and seekable: std::fstream, std::stringstream

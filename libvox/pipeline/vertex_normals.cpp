@@ -80,7 +80,7 @@ void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
   if (!vertex.whole()) return samplers.local().point(vertex.at, faces.f.normal);
   normals.array.set(vertex, rule.of(vertex, &faces, {}), true);
   for (const VertexArray::Block& block : normals.array.blocks())
-    if (block.depth == VertexDepth{})
+    if (block.depth == VertexDepth{})  // its patch may tell no more than the tangents
       samplers.local().patch(continued(block.patch), 0, 0);
     else
       sample(block.patch);

@@ -19,8 +19,8 @@ namespace vox {
 struct ThinPatch {
   Patch patch;  ///< seen from one of its four sides: rows run along v
   int levels;   ///< of its N vertices along u and v; one more than the patch needs, or as many
-  std::vector<std::int64_t> rows;  ///< ascending; 0 and N - 1 among them
-  static constexpr std::int64_t kColumns = 2;
+  std::vector<std::int64_t> rows;              ///< ascending; 0 and N - 1 among them
+  static constexpr std::int64_t kColumns = 2;  ///< the first and the last
   std::int64_t vertices() const {
     return (static_cast<std::int64_t>(rows.size()) + kColumns) << levels;
   }
