@@ -1,8 +1,13 @@
 #include "libvox/subdivide/colored_surface.h"
 
+#include "libvox/core/numbered.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/surface_grid.h"
 #include "libvox/grid/transform.h"
+#include "libvox/grid/voxel.h"
 #include "libvox/grid/voxel_means.h"
 #include "libvox/pipeline/convert.h"
+#include "libvox/pipeline/surface.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "tests/shapes.h"
 
@@ -41,6 +46,21 @@ const openvdb::Vec3SGrid& colorOf(const Conversion& conversion) {
   return dynamic_cast<const openvdb::Vec3SGrid&>(*conversion.grids.at(0));
 }
 
+PolygonMesh scaled(PolygonMesh mesh, double scale) {
+  for (Vec3d& p : mesh.points) p = scale * p.cwiseProduct(Vec3d(1, 1.1, 0.9));
+  return mesh;
+}
+
+class Counter : public ColoredSink {
+ public:
+  void point(const Vec3d&, const Vec3d&) override { ++count; }
+  void patch(const Patch&, const Patch&, std::int64_t rows, std::int64_t columns) override {
+    count += rows * columns;
+  }
+  void curve(const CurvePoints&, const CurvePoints&, std::int64_t more) override { count += more; }
+  std::int64_t count = 0;
+};
+
 /// Vertices in the order of their coordinates.
 class Collector : public ColoredSink {
  public:
@@ -52,6 +72,12 @@ class Collector : public ColoredSink {
     for (std::int64_t i = 0; i < rows; ++i)
       for (std::int64_t j = 0; j < columns; ++j)
         point(at(position, {i, rows}, {j, columns}), at(color, {i, rows}, {j, columns}));
+  }
+  void curve(const CurvePoints& p, const CurvePoints& c, std::int64_t count) override {
+    for (std::int64_t i = 0; i < count; ++i) {
+      const PatchWeights weights(i, count);
+      point(weights(p[0], p[1], p[2]), weights(c[0], c[1], c[2]));
+    }
   }
   std::vector<std::array<double, 6>> sorted() {
     std::sort(all.begin(), all.end());
@@ -140,8 +166,7 @@ TEST_CASE("vertices and colours have the same bits however the mesh is cut", "[c
   for (const auto& shape : shapes)
     for (const BoundaryRule rule : {BoundaryRule::kExtend, BoundaryRule::kFree}) {
       CAPTURE(shape.name);
-      PolygonMesh mesh = coloredByPlace(shape.mesh);
-      for (Vec3d& p : mesh.points) p = 4 * p.cwiseProduct(Vec3d(1, 1.1, 0.9));
+      const PolygonMesh mesh = scaled(coloredByPlace(shape.mesh), 4);
       const SubdivisionLevel base = baseLevel(mesh, rule);
       const std::vector<Vec3d> colors = cornerColors(mesh);
       Collector whole, parts;
@@ -153,6 +178,48 @@ TEST_CASE("vertices and colours have the same bits however the mesh is cut", "[c
       CHECK(whole.all.size() >= mesh.cornerCount());
       CHECK(whole.sorted() == parts.sorted());
     }
+}
+
+TEST_CASE("around a face of many sides samples reach the voxels with the colours of their place",
+          "[color][property]") {
+  for (const PolygonMesh& shape : {test::prism(300), test::pyramid(300)}) {
+    const PolygonMesh mesh = coloredByPlace(scaled(shape, 40));
+    const Box box = usedBox(mesh);
+    const SubdivisionLevel base = baseLevel(mesh);
+    SurfaceGrid grid;
+    SurfaceReport report;
+    Progress progress;
+    markSurface(base, {}, MemoryBudget(0), progress, grid, report);
+    const auto voxels = grid.takeTree();
+
+    Collector samples;
+    ColoredSurface(base, cornerColors(mesh)).emit(numbered(mesh.faceCount()), samples);
+    openvdb::MaskTree reached;
+    double off = 0;
+    for (const auto& [x, y, z, r, g, b] : samples.all) {
+      const Vec3d at(x, y, z);
+      reached.setValueOn(voxelOf(at));
+      const Vec3d place = (at - box.low) / box.longestSide();
+      off = std::max(off, (place - Vec3d(r, g, b)).cwiseAbs().maxCoeff());
+    }
+    CHECK(off < 1e-6);  // points have colours of single precision
+    std::size_t missed = 0;
+    for (auto voxel = voxels->cbeginValueOn(); voxel; ++voxel)
+      missed += !reached.isValueOn(voxel.getCoord());
+    CHECK(missed < voxels->activeVoxelCount() / 50);
+  }
+}
+
+TEST_CASE("where rows and columns run the same way samples are no more than lie along them",
+          "[color][property]") {
+  const auto samplesAt = [](double scale) {
+    PolygonMesh mesh = coloredByPlace(test::sheet(6, 6));
+    for (Vec3d& p : mesh.points) p = scale * Vec3d(p.x() + p.y(), 0.01 * p.y(), 0.01 * p.z());
+    Counter samples;
+    ColoredSurface(baseLevel(mesh), cornerColors(mesh)).emit(numbered(mesh.faceCount()), samples);
+    return static_cast<double>(samples.count);
+  };
+  CHECK(samplesAt(40) < 2.5 * samplesAt(20));  // as in an array, they would be 4 times as many
 }
 
 TEST_CASE("colours around a face of thousands of edges stay within the memory", "[color][error]") {

@@ -50,14 +50,15 @@ class VertexSamples : public ColoredSink {
              std::int64_t columns) override {
     forRows(rows, columns, [&](std::int64_t row) {
       const PatchWeights across(row, rows);
-      const auto p = rowOf(position, across);
-      const auto c = rowOf(color, across);
-      VoxelMeans::Writer& writer = writers_.local();
-      for (std::int64_t column = 0; column < columns; ++column) {
-        const PatchWeights weights(column, columns);
-        writer.add(voxelOf(weights(p[0], p[1], p[2])), weights(c[0], c[1], c[2]));
-      }
+      curve(rowOf(position, across), rowOf(color, across), columns);
     });
+  }
+  void curve(const CurvePoints& p, const CurvePoints& c, std::int64_t count) override {
+    VoxelMeans::Writer& writer = writers_.local();
+    for (std::int64_t i = 0; i < count; ++i) {
+      const PatchWeights weights(i, count);
+      writer.add(voxelOf(weights(p[0], p[1], p[2])), weights(c[0], c[1], c[2]));
+    }
   }
 
  private:

@@ -3,6 +3,7 @@
 #include "libvox/subdivide/colored_surface.h"
 
 #include "libvox/core/numbered.h"
+#include "libvox/mesh/patch_parts.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
 #include "libvox/subdivide/strip.h"
@@ -72,25 +73,85 @@ class Cutter {
   std::vector<Index> pointOrigin_;
 };
 
-/// How many vertices a regular patch is sampled with along u and v, so that they stand half a voxel
-/// apart at most. Unlike faces of vertex conversion (stop.h) they need not be small all round,
-/// which spares needles most of theirs.
-std::pair<std::int64_t, std::int64_t> samplesOf(const Patch& patch) {
+/// How many samples stand half a voxel apart at most where one step goes so far. Unlike faces of
+/// vertex conversion (stop.h) they need not be small all round, which spares needles most of
+/// theirs.
+std::int64_t samplesFor(double step) {
   constexpr double kMostStep = 0.5;
+  std::int64_t n = 1;
+  while (step > kMostStep * static_cast<double>(n)) n *= 2;
+  return n;
+}
+
+/// The longest step from row to row, in voxels, and how far from the row before it leads at most.
+struct StepAcross {
+  double length = 0;
+  double distance = 0;
+};
+
+StepAcross stepAcross(const Patch& patch) {
+  StepAcross across;
   const auto& p = patch.points;
-  double u = 0;
-  double v = 0;
-  for (std::size_t a = 0; a < 2; ++a)
-    for (std::size_t b = 0; b < 3; ++b) {
-      u = std::max(u, (p[a + 1][b] - p[a][b]).cwiseAbs().maxCoeff());
-      v = std::max(v, (p[b][a + 1] - p[b][a]).cwiseAbs().maxCoeff());
+  for (std::size_t u = 0; u < 2; ++u)
+    for (std::size_t v = 0; v < 3; ++v) {
+      const Vec3d step = p[u + 1][v] - p[u][v];
+      across.length = std::max(across.length, step.cwiseAbs().maxCoeff());
+      for (const std::size_t row : {u, u + 1})
+        for (const std::size_t column : {v == 2 ? 1 : v, v == 0 ? 0 : v - 1}) {
+          const Vec3d along = p[row][column + 1] - p[row][column];
+          const double square = along.squaredNorm();
+          const Vec3d beside = square > 0 ? Vec3d(step - step.dot(along) / square * along) : step;
+          across.distance = std::max(across.distance, beside.cwiseAbs().maxCoeff());
+        }
     }
-  const auto halvings = [](double step) {
-    std::int64_t n = 1;
-    while (step > kMostStep * static_cast<double>(n)) n *= 2;
-    return n;
+  return across;
+}
+
+/// How far a patch lies from a line through two of its points at most, on both sides together.
+double widthOf(const Patch& patch) {
+  const auto farthestFrom = [&](const Vec3d& from) {
+    Vec3d farthest = from;
+    for (const auto& row : patch.points)
+      for (const Vec3d& p : row)
+        if ((p - from).squaredNorm() > (farthest - from).squaredNorm()) farthest = p;
+    return farthest;
   };
-  return {halvings(u), halvings(v)};
+  const Vec3d start = farthestFrom(patch.points[1][1]);
+  const Vec3d line = (farthestFrom(start) - start).stableNormalized();
+  double most = 0;
+  for (const auto& row : patch.points)
+    for (const Vec3d& p : row)
+      most = std::max(most, (p - start - (p - start).dot(line) * line).cwiseAbs().maxCoeff());
+  return 2 * most;
+}
+
+/// Gives away what a regular vertex has become. Where its rows and columns run nearly the same way,
+/// as around a face of thousands of sides, a few rows and the outermost columns do.
+void emitPatch(const Patch& position, const Patch& color, ColoredSink& sink) {
+  const Patch turned = quarterTurn(position);
+  const StepAcross fromRow = stepAcross(position);
+  const StepAcross fromColumn = stepAcross(turned);
+  const std::int64_t rows = samplesFor(fromRow.length);
+  const std::int64_t columns = samplesFor(fromColumn.length);
+  const double width = widthOf(position);
+  const std::int64_t fewRows = std::min(rows, samplesFor(std::min(fromRow.distance, width)));
+  const std::int64_t fewColumns =
+      std::min(columns, samplesFor(std::min(fromColumn.distance, width)));
+  constexpr std::int64_t kFarFewer = 4;  // times: the rest is not worth it
+  if (kFarFewer * std::min(fewRows * columns, fewColumns * rows) > rows * columns)
+    return sink.patch(position, color, rows, columns);
+  const auto emit = [&](const Patch& p, const Patch& c, std::int64_t few, std::int64_t along,
+                        std::int64_t across) {
+    sink.patch(p, c, few, along);
+    const Patch turnedP = quarterTurn(p);
+    const Patch turnedC = quarterTurn(c);
+    for (const std::int64_t column : {std::int64_t{0}, along - 1})
+      sink.curve(rowOf(turnedP, {column, along}), rowOf(turnedC, {column, along}), across);
+  };
+  if (fewRows * columns <= fewColumns * rows)
+    emit(position, color, fewRows, columns, rows);
+  else
+    emit(turned, quarterTurn(color), fewColumns, rows, columns);
 }
 
 /// A piece of a level >= 1: gives away what is fine enough or regular, and knows what is left.
@@ -161,8 +222,7 @@ class Piece {
     if (!ring.closed) return false;
     const auto position = patchAround(colored_.level, ring, mesh.points);
     if (!position) return false;
-    const auto [rows, columns] = samplesOf(*position);
-    sink_->patch(*position, *patchAround(colored_.level, ring, colored_.colors), rows, columns);
+    emitPatch(*position, *patchAround(colored_.level, ring, colored_.colors), *sink_);
     return true;
   }
 

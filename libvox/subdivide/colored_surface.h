@@ -17,6 +17,8 @@ class ColoredSink {
   /// The rows x columns vertices that a regular vertex has become (patch.h).
   virtual void patch(const Patch& position, const Patch& color, std::int64_t rows,
                      std::int64_t columns) = 0;
+  /// `count` vertices along a curve (patch.h).
+  virtual void curve(const CurvePoints& position, const CurvePoints& color, std::int64_t count) = 0;
 };
 
 /// A level whose points have colours.
@@ -36,10 +38,10 @@ ColoredLevel nextColoredLevel(ColoredLevel level);
 
 /// The vertices of a subdivided surface with their colours, each at the level where the faces
 /// around it are fine enough for vertex conversion (stop.h), or in regular patches half a voxel
-/// apart at most. So nearly every black voxel holds some. Submesh by submesh: the faces around its
-/// pending vertices are cut out of each level, with those around them, and subdivided as a mesh of
-/// their own; regular vertices leave as patches. So what is held is a small multiple of the
-/// submesh. The bits of what is emitted do not depend on how the mesh is cut.
+/// apart at most, on rows so far apart. So nearly every black voxel holds some. Submesh by submesh:
+/// the faces around its pending vertices are cut out of each level, with those around them, and
+/// subdivided as a mesh of their own; regular vertices leave as patches. So what is held is a small
+/// multiple of the submesh. The bits of what is emitted do not depend on how the mesh is cut.
 ///
 /// One object per thread. Plain rather than fast: five to ten times the cost of LocalSurface.
 class ColoredSurface {
