@@ -8,13 +8,34 @@
 
 #include <algorithm>
 #include <memory>
+#include <ostream>
 #include <span>
-#include <sstream>
-#include <string>
+#include <streambuf>
 #include <vector>
 
 namespace vox {
 namespace {
+
+/// Bytes in memory that is used again: fresh pages cost more than what is written to them.
+class Bytes : public std::streambuf {
+ public:
+  void clear() { bytes_.clear(); }
+  std::span<const char> bytes() const { return bytes_; }
+
+ protected:
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    bytes_.insert(bytes_.end(), bytes, bytes + count);
+    return count;
+  }
+  int_type overflow(int_type byte) override {
+    if (!traits_type::eq_int_type(byte, traits_type::eof()))
+      bytes_.push_back(traits_type::to_char_type(byte));
+    return traits_type::not_eof(byte);
+  }
+
+ private:
+  std::vector<char> bytes_;
+};
 
 template <class TreeT>
 class ParallelGrid : public openvdb::Grid<TreeT> {
@@ -25,21 +46,22 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
   void writeBuffers(std::ostream& stream) const override {
     std::vector<const Leaf*> leaves;  // in the order in which the tree writes them
     this->tree().getNodes(leaves);
-    constexpr std::size_t kLeavesOfPart = 128;
-    constexpr std::size_t kMostParts = 32;
+    constexpr std::size_t kLeavesOfPart = 32;
+    constexpr std::size_t kMostParts = 64;
     Format format{openvdb::io::StreamMetadata(stream), this->saveFloatAsHalf()};
     format.metadata.setBackgroundPtr(&this->tree().root().background());
-    std::vector<std::string> parts;
+    std::vector<Bytes> parts(kMostParts);
     for (std::span<const Leaf* const> left = leaves; !left.empty();) {
       const auto now = left.first(std::min(left.size(), kMostParts * kLeavesOfPart));
       left = left.subspan(now.size());
-      parts.resize((now.size() + kLeavesOfPart - 1) / kLeavesOfPart);
-      forEach(parts.size(), 1, [&](std::size_t i) {
+      const std::size_t count = (now.size() + kLeavesOfPart - 1) / kLeavesOfPart;
+      forEach(count, 1, [&](std::size_t i) {
         const auto part = now.subspan(i * kLeavesOfPart);
-        parts[i] = bytesOf(part.first(std::min(part.size(), kLeavesOfPart)), format);
+        write(part.first(std::min(part.size(), kLeavesOfPart)), format, parts[i]);
       });
-      for (const std::string& bytes : parts)
-        stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+      for (std::size_t i = 0; i < count; ++i)
+        stream.write(parts[i].bytes().data(),
+                     static_cast<std::streamsize>(parts[i].bytes().size()));
     }
   }
 
@@ -52,13 +74,13 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
     bool half;
   };
 
-  static std::string bytesOf(std::span<const Leaf* const> leaves, const Format& format) {
-    std::ostringstream stream(std::ios::binary);
+  static void write(std::span<const Leaf* const> leaves, const Format& format, Bytes& to) {
+    to.clear();
+    std::ostream stream(&to);
     stream.exceptions(std::ios::badbit);  // else no memory would mean no bytes, and no error
     auto metadata = std::make_shared<openvdb::io::StreamMetadata>(format.metadata);
     openvdb::io::setStreamMetadataPtr(stream, metadata);
     for (const Leaf* leaf : leaves) leaf->writeBuffers(stream, format.half);
-    return std::move(stream).str();
   }
 };
 

@@ -5,7 +5,7 @@
 namespace vox {
 
 /// A view of a grid, with the same tree, for archives to write: its leaves are serialized and
-/// compressed by OpenVDB on all threads, up to some 25 MB at a time, and come out in the same bytes
+/// compressed by OpenVDB on all threads, up to some 13 MB at a time, and come out in the same bytes
 /// as from the grid itself. Other grids than those of floats and vectors are returned as they are:
 /// of masks there is nothing to compress.
 openvdb::GridBase::ConstPtr writtenInParallel(const openvdb::GridBase::Ptr& grid);
