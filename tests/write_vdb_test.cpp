@@ -122,11 +122,13 @@ TEST_CASE("grids come out in the bytes that OpenVDB writes by itself", "[io][par
 
 TEST_CASE("memory that runs out while leaves are written is an error", "[io][error]") {
   if (!test::FailingAllocation::possible()) return;
-  const std::vector<openvdb::GridBase::Ptr> grid = {gridsOfManyLeaves()[3]};
-  constexpr std::size_t kLarge = 4096;
+  auto full = openvdb::Vec3SGrid::create();
+  full->tree().denseFill({{0, 0, 0}, {55, 39, 39}}, {1, 2, 3});
+  const std::vector<openvdb::GridBase::Ptr> grid = {full};
+  constexpr std::size_t kLarge = 8192;  // more than a leaf: buffers for many of them
   bool failed = true;
   int failures = 0;
-  for (int n = 0; failed; n += 79) {
+  for (int n = 0; failed; ++n) {
     std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
     stream.str(std::string(1 << 22, ' '));  // needs no more
     bool threw = false;
