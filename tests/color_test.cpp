@@ -47,7 +47,7 @@ PolygonMesh moved(PolygonMesh mesh, const Vec3d& by) {
 
 }  // namespace
 
-TEST_CASE("every black voxel, and no other, has the texture's colour at its centre", "[color]") {
+TEST_CASE("every active voxel, and no other, has the texture's colour at its centre", "[color]") {
   const PolygonMesh mesh = test::dodecahedron();
   const Conversion conversion = convert(sceneOf(mesh, "marble"), colorAt(0.1));
   const openvdb::Vec3SGrid& color = colorOf(conversion);

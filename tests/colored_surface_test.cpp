@@ -2,7 +2,7 @@
 
 #include "libvox/core/numbered.h"
 #include "libvox/core/progress.h"
-#include "libvox/grid/surface_grid.h"
+#include "libvox/grid/active_voxels.h"
 #include "libvox/grid/transform.h"
 #include "libvox/grid/voxel.h"
 #include "libvox/grid/voxel_means.h"
@@ -186,7 +186,7 @@ TEST_CASE("around a face of many sides samples reach the voxels with the colours
     const PolygonMesh mesh = coloredByPlace(scaled(shape, 40));
     const Box box = usedBox(mesh);
     const SubdivisionLevel base = baseLevel(mesh);
-    SurfaceGrid grid;
+    ActiveVoxels grid;
     SurfaceReport report;
     Progress progress;
     markSurface(base, {}, MemoryBudget(0), progress, grid, report);
@@ -253,7 +253,7 @@ TEST_CASE("a voxel has the mean of its samples, or that of its neighbours", "[co
   writer.add({7, 0, 0}, Vec3d(1, 0, 0.25));
   writer.add({7, 0, 0}, Vec3d(0, 1, 0.25));
   writer.add({7, 0, 0}, Vec3d(9, -9, 0.25));  // clamped
-  writer.add({7, 5, 0}, Vec3d(0, 1, 0));      // no black voxel
+  writer.add({7, 5, 0}, Vec3d(0, 1, 0));      // no active voxel
   writer.add({1000, 5, 0}, Vec3d(0, 1, 0));
   means.fillGaps();
   const Vec3d mean(2.0 / 3, 0, 0.25);

@@ -53,8 +53,9 @@ std::string bytesOf(const Conversion& conversion) {
   return stream.str();
 }
 
-/// Whether a path of white voxels, face to face, leads from one voxel to another within a box.
-bool whitePath(const openvdb::MaskGrid& mask, const openvdb::CoordBBox& box, Coord from, Coord to) {
+/// Whether a path of inactive voxels, face to face, leads from one voxel to another within a box.
+bool inactivePath(const openvdb::MaskGrid& mask, const openvdb::CoordBBox& box, Coord from,
+                  Coord to) {
   openvdb::MaskTree reached;
   std::vector<Coord> open = {from};
   reached.setValueOn(from);
@@ -76,7 +77,8 @@ bool whitePath(const openvdb::MaskGrid& mask, const openvdb::CoordBBox& box, Coo
 
 }  // namespace
 
-TEST_CASE("no path of white voxels joins the sides of a closed surface", "[pipeline][property]") {
+TEST_CASE("no path of inactive voxels joins the sides of a closed surface",
+          "[pipeline][property]") {
   for (const auto& shape : test::shapes())
     for (const int dim : {8, 13}) {
       if (!shape.closed) continue;
@@ -90,7 +92,7 @@ TEST_CASE("no path of white voxels joins the sides of a closed surface", "[pipel
     }
 }
 
-TEST_CASE("no path of white voxels joins the sides of a long thin bar", "[pipeline][property]") {
+TEST_CASE("no path of inactive voxels joins the sides of a long thin bar", "[pipeline][property]") {
   // Its patches go out as rows: see that these still separate, whatever the angle.
   for (const double angle : {0.0, 0.3, 0.7853981633974483}) {
     CAPTURE(angle);
@@ -147,18 +149,18 @@ TEST_CASE("an open sheet has no hole from one side to the other", "[pipeline][pr
   const double unit = 1 / conversion.report.voxelSize;
   const auto at = [&](double x) { return static_cast<int>(x * unit); };
   const openvdb::CoordBBox box(at(1), at(1), at(-1), at(4), at(3), at(1));
-  CHECK_FALSE(whitePath(maskOf(conversion), box, box.min(), box.max()));
+  CHECK_FALSE(inactivePath(maskOf(conversion), box, box.min(), box.max()));
 }
 
-TEST_CASE("white voxels inside and outside a closed surface are not connected",
+TEST_CASE("inactive voxels inside and outside a closed surface are not connected",
           "[pipeline][property]") {
   for (const auto& mesh : {test::cube(), test::dodecahedron(), test::prism(12)}) {
     const Conversion conversion = convert(sceneOf(mesh), maskAt(40));
     openvdb::CoordBBox box = maskOf(conversion).evalActiveVoxelBoundingBox();
     box.expand(1);
     CHECK_FALSE(maskOf(conversion).tree().isValueOn({0, 0, 0}));
-    CHECK_FALSE(whitePath(maskOf(conversion), box, box.min(), {0, 0, 0}));
-    CHECK(whitePath(maskOf(conversion), box, box.min(), box.max()));
+    CHECK_FALSE(inactivePath(maskOf(conversion), box, box.min(), {0, 0, 0}));
+    CHECK(inactivePath(maskOf(conversion), box, box.min(), box.max()));
   }
 }
 

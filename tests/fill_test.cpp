@@ -17,7 +17,7 @@ using openvdb::MaskTree;
 
 namespace {
 
-/// What no path of white voxels from the corner of a box reaches, voxel by voxel.
+/// What no path of inactive voxels from the corner of a box reaches, voxel by voxel.
 MaskTree slowlyFilled(const MaskTree& surface) {
   CoordBBox box;
   surface.evalActiveVoxelBoundingBox(box);
@@ -75,11 +75,11 @@ TEST_CASE("a fill is what a search from outside, voxel by voxel, does not reach"
       CAPTURE(side, density);
       MaskTree tree;
       const Coord origin(-13, 120, 4085);  // across leaves, lower and upper nodes
-      std::bernoulli_distribution black(density);
+      std::bernoulli_distribution active(density);
       for (int i = 0; i < side; ++i)
         for (int j = 0; j < side; ++j)
           for (int k = 0; k < side; ++k)
-            if (black(random)) tree.setValueOn(origin.offsetBy(i, j, k));
+            if (active(random)) tree.setValueOn(origin.offsetBy(i, j, k));
       const auto solid = filled(tree, {});
       CHECK(sameVoxels(*solid, slowlyFilled(tree)));
     }
@@ -102,7 +102,7 @@ TEST_CASE("a box is filled with tiles, and leaks through one missing voxel", "[v
 }
 
 TEST_CASE("what is enclosed may be larger than the largest node", "[volume]") {
-  // A shell of black tiles, 4096 thick, around 3 x 1 x 1 empty places of upper nodes, the middle
+  // A shell of active tiles, 4096 thick, around 3 x 1 x 1 empty places of upper nodes, the middle
   // one of which has no neighbour that is there.
   constexpr int kDim = 4096;
   MaskTree tree;
@@ -118,7 +118,7 @@ TEST_CASE("what is enclosed may be larger than the largest node", "[volume]") {
   const std::int64_t wall = static_cast<std::int64_t>(tree.activeVoxelCount());
   const auto solid = filled(tree, {});
   const std::int64_t inside = std::int64_t{5} * kDim * kDim * kDim;
-  const std::int64_t holes = 7 * 9 - 5;  // single white voxels, enclosed as well
+  const std::int64_t holes = 7 * 9 - 5;  // single inactive voxels, enclosed as well
   CHECK(static_cast<std::int64_t>(solid->activeVoxelCount()) == wall + inside + holes);
 
   tree.touchLeaf(Coord(kDim * 2 + 100, -1, 5));
@@ -178,16 +178,16 @@ TEST_CASE("any number of threads fills alike", "[volume][parallel]") {
   }
 }
 
-TEST_CASE("the white regions of a leaf are its sets connected through faces", "[volume]") {
+TEST_CASE("the inactive regions of a leaf are its sets connected through faces", "[volume]") {
   LeafWords checkered{};
   for (int i = 0; i < 512; ++i)
     if ((i ^ i >> 3 ^ i >> 6) & 1)
       checkered[static_cast<std::size_t>(i / 64)] |= std::uint64_t{1} << (i % 64);
   std::vector<LeafWords> regions;
-  appendWhiteRegions(checkered, regions);
+  appendInactiveRegions(checkered, regions);
   CHECK(regions.size() == 256);
   regions.clear();
-  appendWhiteRegions(LeafWords{}, regions);
+  appendInactiveRegions(LeafWords{}, regions);
   REQUIRE(regions.size() == 1);
   for (int side = 0; side < kSides; ++side) CHECK(sideOf(regions[0], side) == ~std::uint64_t{0});
 }

@@ -22,7 +22,7 @@ TEST_CASE("a block has the voxels of its bits, wherever it lies", "[grid][proper
     if (i % 4 == 2) voxels = i % 8 == 2 ? 0 : ~std::uint64_t{0};
     CAPTURE(origin, voxels);
 
-    SurfaceGrid grid;
+    ActiveVoxels grid;
     LeafCache cache(grid);
     cache.addBlock(origin, voxels);
     cache.flush();
@@ -49,7 +49,7 @@ TEST_CASE("positions go to the voxels nearest to them, on every instruction set"
     for (const std::size_t count : {0U, 1U, 7U, 8U, 9U, 71U, 302U}) {
       CAPTURE(count);
       const std::span some = std::span(positions).last(count);
-      SurfaceGrid grid;
+      ActiveVoxels grid;
       LeafCache cache(grid);
       cache.add(some);
       cache.flush();

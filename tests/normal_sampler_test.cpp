@@ -191,7 +191,7 @@ TEST_CASE("tiles of normals have the same bits on every instruction set", "[norm
   hwy::GetChosenTarget().DeInit();
 }
 
-TEST_CASE("samples outside black voxels are of no consequence", "[normals]") {
+TEST_CASE("samples outside active voxels are of no consequence", "[normals]") {
   openvdb::MaskTree voxels;
   voxels.setValueOn(Coord(7, 9, 3));
   VoxelMeans means(voxels);

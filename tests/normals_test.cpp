@@ -58,7 +58,7 @@ std::pair<double, double> errors(const openvdb::Vec3SGrid& grid, Rule&& rule, in
 
 }  // namespace
 
-TEST_CASE("normals have length 1 and stand at the black voxels", "[normals][property]") {
+TEST_CASE("normals have length 1 and stand at the active voxels", "[normals][property]") {
   for (const auto& shape : test::shapes()) {
     CAPTURE(shape.name);
     ConvertOptions options = atDim(24);
@@ -82,10 +82,10 @@ TEST_CASE("a flat sheet has its normal everywhere", "[normals][golden]") {
   for (const std::optional<int> levels : {std::optional<int>(), {0}, {1}, {3}}) {
     ConvertOptions options = atDim(60);
     if (levels) options.until = StopRule{.levels = levels};
-    const auto [mean, most] =
-        errors(*normalsOf(tilted, options), [&](const Vec3d&) { return normal; });
-    CHECK(most < 1e-4);
-    CHECK(mean <= most);
+    const auto grid = normalsOf(tilted, options);
+    // One voxel or more in each column: the surface covers 5/6 of the 60 x 60 at least.
+    CHECK(grid->activeVoxelCount() >= 3000);
+    CHECK(errors(*grid, [&](const Vec3d&) { return normal; }).second < 1e-4);
   }
 }
 

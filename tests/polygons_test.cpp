@@ -62,17 +62,19 @@ int countOf(const Coord& c, int size) {
   return (std::abs(c.x()) == size) + (std::abs(c.y()) == size) + (std::abs(c.z()) == size);
 }
 
-/// Checks that exactly the voxels of a cube around 0 of which isBlack says so are active.
-template <class IsBlack>
-void checkVoxels(const openvdb::MaskGrid& mask, int side, std::uint64_t count, IsBlack&& isBlack) {
+/// Checks that exactly the voxels of a cube around 0 of which isActive says so are active.
+template <class IsActive>
+void checkVoxels(const openvdb::MaskGrid& mask, int side, std::uint64_t count,
+                 IsActive&& isActive) {
   CHECK(mask.activeVoxelCount() == count);
   std::size_t wrong = 0;
   for (const Coord& c : openvdb::CoordBBox::createCube(Coord(-side), 2 * side + 1))
-    wrong += mask.tree().isValueOn(c) != isBlack(c);
+    wrong += mask.tree().isValueOn(c) != isActive(c);
   CHECK(wrong == 0);
 }
 
-/// Whether a path of white voxels, with steps to 6 or 26 neighbours, leads from outside to a voxel.
+/// Whether a path of inactive voxels, with steps to 6 or 26 neighbours, leads from outside to a
+/// voxel.
 bool isOpen(const openvdb::MaskGrid& mask, Separation steps, const Coord& to) {
   openvdb::CoordBBox box = mask.evalActiveVoxelBoundingBox();
   box.expand(1);
@@ -165,14 +167,14 @@ TEST_CASE("concave faces are filled and no farther", "[polygons][golden]") {
   const Conversion conversion = convert(sceneOf(slottedBlock()), polygonsAt(1, 0, separation));
   // Lattice points on the surface of a solid of whole numbers: those with a neighbour outside.
   std::uint64_t count = 0;
-  const auto isBlack = [&](const Coord& c) {
+  const auto isActive = [&](const Coord& c) {
     bool surrounded = true;
     for (const Coord& step : openvdb::CoordBBox::createCube(Coord(-1), 3))
       surrounded = surrounded && inSlottedBlock(c + step);
     return inSlottedBlock(c) && !surrounded;
   };
-  for (const Coord& c : openvdb::CoordBBox::createCube(Coord(-8), 17)) count += isBlack(c);
-  checkVoxels(maskOf(conversion), 8, count, isBlack);
+  for (const Coord& c : openvdb::CoordBBox::createCube(Coord(-8), 17)) count += isActive(c);
+  checkVoxels(maskOf(conversion), 8, count, isActive);
   CHECK(conversion.report.objects[0].polygons.triangles == 2 * 6 + 8 * 2);
   CHECK(conversion.report.objects[0].polygons.fanned == 0);
 }
@@ -339,7 +341,7 @@ TEST_CASE("polygons that cannot be had are refused", "[polygons][error]") {
 
 TEST_CASE("a grid of polygons keeps to the memory that the mesh leaves", "[polygons][error]") {
   const SubdivisionLevel base = baseLevel(test::cube());
-  SurfaceGrid grid;
+  ActiveVoxels grid;
   PolygonReport report;
   Progress unwatched;
   CHECK_THROWS_AS(markPolygons(base, StopRule{0}, {}, Separation::k6, MemoryBudget(20000),

@@ -58,7 +58,7 @@ TEST_CASE("progress never goes back and never beyond 1, whatever is credited", "
   onThreads(8, [&] {
     for (int stage = 0; stage < 3; ++stage) {
       progress.begin("work", 0.4);  // more than planned in the end
-      forEach(3000, 1, [&](int) { progress.done(1.0 / 2000); });
+      parallelForEach(3000, 1, [&](int) { progress.done(1.0 / 2000); });
     }
     progress.plan(5);
     progress.begin("more", 1);

@@ -43,7 +43,8 @@ void checkSound(const PolygonMesh& mesh) {
   CHECK(test::faultOf(ready) == "");
   const Adjacency adjacency = buildAdjacency(ready);
   for (Index c = 0; c < ready.cornerCount(); ++c) {
-    const Index valence = ledRingSize(ready, adjacency, c);  // 0 but for the first of a closed ring
+    const Index valence =
+        ledOneRingSize(ready, adjacency, c);  // 0 but for the first of a closed ring
     if (valence == 1 || valence == 2) FAIL_CHECK("corner " << c << " has a short ring");
   }
 }

@@ -11,8 +11,8 @@ namespace vox::test {
 using Corners = std::array<Vec3d, 3>;
 using Voxel = std::array<int, 3>;
 
-/// Black voxels of a triangle, sorted, by Separation. Tries each of the 13 axes that may separate a
-/// triangle and a box by projecting all their corners; halves the box of voxels as long as it
+/// Active voxels of a triangle, sorted, by Separation. Tries each of the 13 axes that may separate
+/// a triangle and a box by projecting all their corners; halves the box of voxels as long as it
 /// meets. |coordinate| up to 2^12 voxels.
 std::array<std::vector<Voxel>, 2> naiveScan(const Corners& corners);
 
@@ -20,7 +20,7 @@ std::array<std::vector<Voxel>, 2> naiveScan(const Corners& corners);
 /// clips it at the six sides, in rational numbers.
 bool clipMeets(const Corners& corners, const Voxel& voxel, const std::array<int, 3>& widths);
 
-/// Boxes of which a black voxel must meet one.
+/// Boxes of which an active voxel must meet one.
 std::vector<std::array<int, 3>> targetWidths(Separation separation);
 
 }  // namespace vox::test

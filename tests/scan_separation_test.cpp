@@ -33,14 +33,14 @@ Surface fanned(const PolygonMesh& mesh) {
   return surface;
 }
 
-/// Which voxels of [-side, side]^3 are black.
+/// Which voxels of [-side, side]^3 are active.
 class Cube {
  public:
   Cube(const Surface& surface, Separation separation, int side)
-      : side_(side), black_(static_cast<std::size_t>(width() * width() * width())) {
+      : side_(side), active_(static_cast<std::size_t>(width() * width() * width())) {
     scanTriangles(surface.points, surface.triangles, separation, [&](const VoxelBlock& block) {
       forEachVoxel(block, [&](int x, int y, int z) {
-        if (holds(x, y, z)) black_[slot(x, y, z)] = true;
+        if (holds(x, y, z)) active_[slot(x, y, z)] = true;
       });
     });
   }
@@ -48,35 +48,35 @@ class Cube {
   bool holds(int x, int y, int z) const {
     return std::max({std::abs(x), std::abs(y), std::abs(z)}) <= side_;
   }
-  bool black(int x, int y, int z) const { return black_[slot(x, y, z)]; }
+  bool active(int x, int y, int z) const { return active_[slot(x, y, z)]; }
 
-  /// Calls visit(x, y, z) for each white voxel.
+  /// Calls visit(x, y, z) for each inactive voxel.
   template <class Visit>
-  void forWhite(Visit&& visit) const {
+  void forInactive(Visit&& visit) const {
     for (int x = -side_; x <= side_; ++x)
       for (int y = -side_; y <= side_; ++y)
         for (int z = -side_; z <= side_; ++z)
-          if (!black(x, y, z)) visit(x, y, z);
+          if (!active(x, y, z)) visit(x, y, z);
   }
 
-  std::size_t blackCount() const {
-    return static_cast<std::size_t>(std::count(black_.begin(), black_.end(), true));
+  std::size_t activeCount() const {
+    return static_cast<std::size_t>(std::count(active_.begin(), active_.end(), true));
   }
 
-  /// Pairs of white neighbours (6 or 26) of which one is on side true, one on side false.
+  /// Pairs of inactive neighbours (6 or 26) of which one is on side true, one on side false.
   template <class Side>
   std::size_t leaks(Separation separation, Side&& side) const {
-    std::vector<bool> on(black_.size());
-    forWhite([&](int x, int y, int z) { on[slot(x, y, z)] = side(x, y, z); });
+    std::vector<bool> on(active_.size());
+    forInactive([&](int x, int y, int z) { on[slot(x, y, z)] = side(x, y, z); });
     std::size_t leaks = 0;
-    forWhite([&](int x, int y, int z) {
+    forInactive([&](int x, int y, int z) {
       for (int step = 0; step < 27; ++step) {
         const int dx = step / 9 - 1;
         const int dy = step / 3 % 3 - 1;
         const int dz = step % 3 - 1;
         if (separation == Separation::k6 && std::abs(dx) + std::abs(dy) + std::abs(dz) != 1)
           continue;
-        if (!holds(x + dx, y + dy, z + dz) || black(x + dx, y + dy, z + dz)) continue;
+        if (!holds(x + dx, y + dy, z + dz) || active(x + dx, y + dy, z + dz)) continue;
         leaks += on[slot(x, y, z)] != on[slot(x + dx, y + dy, z + dz)];
       }
     });
@@ -90,7 +90,7 @@ class Cube {
   }
 
   int side_;
-  std::vector<bool> black_;
+  std::vector<bool> active_;
 };
 
 /// Solid angle of a closed surface, in whole spheres: 0 outside.
@@ -137,7 +137,7 @@ Surface sphere(int levels) {
 
 }  // namespace
 
-TEST_CASE("no path of white voxels passes a closed surface", "[voxelize][property]") {
+TEST_CASE("no path of inactive voxels passes a closed surface", "[voxelize][property]") {
   const Separation separation = GENERATE(Separation::k6, Separation::k26);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> shift(-0.5, 0.5);
@@ -167,7 +167,7 @@ TEST_CASE("no path of white voxels passes a closed surface", "[voxelize][propert
   CHECK(inside > 5000);  // there is something to leak
 }
 
-TEST_CASE("no path of white voxels passes a plane", "[voxelize][property]") {
+TEST_CASE("no path of inactive voxels passes a plane", "[voxelize][property]") {
   const Separation separation = GENERATE(Separation::k6, Separation::k26);
   std::mt19937 random(2);
   std::uniform_int_distribution<int> component(-6, 6);
@@ -188,7 +188,7 @@ TEST_CASE("no path of white voxels passes a plane", "[voxelize][property]") {
     CAPTURE(normal.transpose(), point.transpose());
     CHECK(cube.leaks(separation, [&](int x, int y, int z) {
       const double height = normal.dot(Vec3d(x, y, z) - point);
-      if (height == 0) FAIL("a white centre in the plane");
+      if (height == 0) FAIL("an inactive centre in the plane");
       return height > 0;
     }) == 0);
   }
@@ -214,13 +214,13 @@ TEST_CASE("a 6-separating plane has one voxel per column of the axis that it fac
     const Cube cube(plane, Separation::k6, 2 * kSide + 2);
     for (int x = -kSide; x <= kSide; ++x)
       for (int y = -kSide; y <= kSide; ++y) {
-        int black = 0;
+        int active = 0;
         for (int z = -2 * kSide - 2; z <= 2 * kSide + 2; ++z)
-          if (cube.black(x, y, z)) {
-            ++black;
+          if (cube.active(x, y, z)) {
+            ++active;
             CHECK(std::abs(z - height(x, y)) < 0.5 + 1e-4);  // corners are snapped
           }
-        CHECK(black == 1);
+        CHECK(active == 1);
       }
   }
 }
@@ -241,7 +241,8 @@ TEST_CASE(
   for (const auto& [separation, thickness] : {std::pair(Separation::k26, normal.lpNorm<1>()),
                                               {Separation::k6, normal.lpNorm<Eigen::Infinity>()}}) {
     const Cube cube(plane, separation, 300);
-    CHECK(static_cast<double>(cube.blackCount()) == Approx(area * thickness).margin(2 * tolerance));
+    CHECK(static_cast<double>(cube.activeCount()) ==
+          Approx(area * thickness).margin(2 * tolerance));
   }
 }
 
@@ -254,8 +255,8 @@ TEST_CASE("the voxels of a sphere number 6 pi r^2 (26) or 12 sqrt(2) atan(1 / sq
   const double square = radius * radius;
   const double six = 12 * std::numbers::sqrt2 * std::atan(1 / std::numbers::sqrt2) * square;
   // The polyhedron is flatter than the sphere by 1e-3; the rest is the roundness of the count.
-  CHECK(static_cast<double>(Cube(surface, Separation::k26, 63).blackCount()) ==
+  CHECK(static_cast<double>(Cube(surface, Separation::k26, 63).activeCount()) ==
         Approx(6 * std::numbers::pi * square).epsilon(5e-3));
-  CHECK(static_cast<double>(Cube(surface, Separation::k6, 63).blackCount()) ==
+  CHECK(static_cast<double>(Cube(surface, Separation::k6, 63).activeCount()) ==
         Approx(six).epsilon(5e-3));
 }

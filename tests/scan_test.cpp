@@ -112,7 +112,7 @@ std::string described(const Corners& corners) {
 TEST_CASE("the brute-force reference agrees with clipping in rational numbers",
           "[voxelize][reference]") {
   RandomTriangles next(1);
-  std::size_t black = 0;
+  std::size_t active = 0;
   for (int i = 0; i < 1500; ++i) {
     const Corners corners = next(1.5);
     const auto voxels = test::naiveScan(corners);
@@ -127,13 +127,13 @@ TEST_CASE("the brute-force reference agrees with clipping in rational numbers",
             std::any_of(targets.begin(), targets.end(), [&](const std::array<int, 3>& widths) {
               return test::clipMeets(corners, voxel, widths);
             });
-        black += met;
+        active += met;
         if (met != std::binary_search(list.begin(), list.end(), voxel))
           FAIL(described(corners) << "at " << voxel[0] << ' ' << voxel[1] << ' ' << voxel[2]);
       }
     }
   }
-  CHECK(black > 4000);
+  CHECK(active > 4000);
 }
 
 TEST_CASE("a million random triangles have exactly the voxels of the brute-force reference",
@@ -262,7 +262,7 @@ TEST_CASE("touching counts", "[voxelize][golden]") {
   CHECK(count(point(0.5, 0, 0), Separation::k6) == 2);
   CHECK(count(point(0.5, 0, 0.5), Separation::k6) == 0);
   CHECK(count(point(0.4, 0.1, 0.3), Separation::k6) == 0);
-  // A triangle in the plane between two layers of voxels blackens both.
+  // A triangle in the plane between two layers of voxels activates both.
   const Corners between = {Vec3d(0, 0, 0.5), Vec3d(4, 0, 0.5), Vec3d(0, 4, 0.5)};
   CHECK(count(between, Separation::k6) == 2 * 15);
   CHECK(count(between, Separation::k26) == 2 * 19);

@@ -32,7 +32,7 @@ Patch randomPatch(Points& points) {
 VertexSplit randomSplit(Points& points) {
   VertexSplit split;
   split.setF({points.next(), points.next(), points.next(), points.next()});
-  split.setK({points.next(), points.next(), points.next(), points.next()});
+  split.setVFace({points.next(), points.next(), points.next(), points.next()});
   for (auto* quad : {&split.r, &split.l})
     for (Vec3d& p : *quad) p = points.next();
   return split;
@@ -86,11 +86,11 @@ TEST_CASE("sizes of children are those of the faces around them, bit for bit",
   onEveryInstructionSet([&](int) {
     const VertexSplit s = randomSplit(points);
     const ChildSizes sizes = childSizes(s);
-    const double own = diameter(s.f0, s.r[0], s.k0, s.l[0]);
+    const double own = diameter(s.f0, s.r[0], s.vFace0, s.l[0]);
     CHECK(sizes.f == std::max({own, diameter(s.f0, s.fNext, s.r[1], s.r[0]),
                                diameter(s.f0, s.fPrevious, s.l[1], s.l[0])}));
-    CHECK(sizes.k == std::max({own, diameter(s.k0, s.kRight, s.r[3], s.r[0]),
-                               diameter(s.k0, s.kLeft, s.l[3], s.l[0])}));
+    CHECK(sizes.vFace == std::max({own, diameter(s.vFace0, s.vFaceRight, s.r[3], s.r[0]),
+                                   diameter(s.vFace0, s.vFaceLeft, s.l[3], s.l[0])}));
     CHECK(sizes.r == PatchSteps(s.childInR()).sizeBelow(0, 0));
     CHECK(sizes.l == PatchSteps(s.childInL()).sizeBelow(0, 0));
   });

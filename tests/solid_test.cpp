@@ -56,7 +56,7 @@ TEST_CASE("the volume of a solid torus converges to that of its spline with orde
     const auto voxels = static_cast<double>(densityOf(conversion).activeVoxelCount());
     errors.push_back(voxels * size * size * size / volume - 1);
     CAPTURE(size, errors.back());
-    CHECK(errors.back() > 0);  // the black voxels reach out by half a voxel or so
+    CHECK(errors.back() > 0);  // the active voxels reach out by half a voxel or so
   }
   for (std::size_t i = 1; i < errors.size(); ++i) {
     const double order = std::log2(errors[i - 1] / errors[i]);

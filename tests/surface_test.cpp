@@ -25,7 +25,7 @@ struct Marked {
 };
 
 Marked mark(const SubdivisionLevel& base, const SurfaceOptions& options, Progress& progress) {
-  SurfaceGrid grid;
+  ActiveVoxels grid;
   Marked marked;
   markSurface(base, options, MemoryBudget(std::uint64_t{1} << 34), progress, grid, marked.report);
   marked.tree = grid.takeTree();
@@ -155,7 +155,7 @@ TEST_CASE("split patches fill one grid alike on any number of threads", "[pipeli
 
 TEST_CASE("a level of the whole mesh that cannot fit is refused before it is made",
           "[pipeline][localize][error]") {
-  SurfaceGrid grid;
+  ActiveVoxels grid;
   SurfaceReport report;
   Progress unwatched;
   const MemoryBudget budget(std::uint64_t{1} << 26);
@@ -221,7 +221,7 @@ TEST_CASE("tasks that run out of memory at the same time end in one refusal",
           "[pipeline][parallel][error]") {
   const SubdivisionLevel base = largeCube();
   for (int run = 0; run < 20; ++run) {
-    SurfaceGrid grid(std::uint64_t{1} << (20 + run % 4));
+    ActiveVoxels grid(std::uint64_t{1} << (20 + run % 4));
     SurfaceReport report;
     Progress unwatched;
     const SurfaceOptions options{run % 2 == 0 ? Localize::kDuring : Localize::kBefore, 1};

@@ -169,7 +169,7 @@ SubdivisionLevel scaled(PolygonMesh mesh, double size) {
 }
 
 openvdb::MaskGrid marked(const SubdivisionLevel& base, SurfaceReport& report) {
-  SurfaceGrid grid;
+  ActiveVoxels grid;
   Progress unwatched;
   markSurface(base, {}, MemoryBudget(0), unwatched, grid, report);
   openvdb::MaskGrid mask;
@@ -350,7 +350,7 @@ TEST_CASE("a patch of which part turns back has fewer vertices in parts, at thei
       const PatchSteps steps(part);
       REQUIRE((steps.u + steps.v).maxCoeff() <= std::ldexp(kVertexConversionSpan, levels));
     };
-    forParts(
+    forEachPatchPart(
         PatchPart(patch), 1,
         [&](const ThinPatch& part, int) {
           requireFine(part.patch, part.levels);
@@ -384,7 +384,7 @@ TEST_CASE("the outermost vertices do for a patch without width", "[subdivide]") 
   CHECK(thin->rows == std::vector<std::int64_t>{0, (1 << thin->levels) - 1});
 }
 
-TEST_CASE("no path of white voxels leads into a surface around faces of many sides",
+TEST_CASE("no path of inactive voxels leads into a surface around faces of many sides",
           "[pipeline][subdivide][property]") {
   const struct {
     const char* name;

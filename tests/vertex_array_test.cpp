@@ -149,7 +149,7 @@ TEST_CASE("normals are what faces six levels deeper turn to", "[subdivide][norma
       const VertexArray array = arrayOf(vertex, 0);
       const VertexArray deeper = arrayOf(vertex, 1);
       const Vec3d limit =
-          (deeper.cornerF() + deeper.cornerK() + deeper.cornerR() + deeper.cornerL()) / 4;
+          (deeper.cornerF() + deeper.cornerVFace() + deeper.cornerR() + deeper.cornerL()) / 4;
       const auto around = faces.nearest(limit, 9);
       CHECK((around[0].centroid - limit).norm() < 1e-12);
       CHECK(degrees(array.normalAt(0, 0), around[0].normal) < 1e-8);
@@ -211,7 +211,7 @@ TEST_CASE("normals on a boundary are those that rows beside it come to", "[subdi
           const std::int64_t far = (2 * i + 1) << (kDeeper - 1);  // and one before it
           const Vec3d near = acrossR ? deeper.normalAt(far, 0) + deeper.normalAt(far - 1, 0)
                                      : deeper.normalAt(0, far) + deeper.normalAt(0, far - 1);
-          if (i == 0 && !vertex.regular && (!vertex.quadK || vertex.corner)) {
+          if (i == 0 && !vertex.regular && (!vertex.quadVFace || vertex.corner)) {
             // Beside a block of one point: as in its plane.
             CHECK((normals[0] - array.normalAt(0, 0)).norm() < 1e-9);
             continue;

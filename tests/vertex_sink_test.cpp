@@ -39,7 +39,7 @@ PolygonMesh roughBlob(std::uint32_t seed, double radius) {
 }
 
 openvdb::MaskTree::Ptr treeOf(std::span<const Vec3d> points) {
-  SurfaceGrid grid;
+  ActiveVoxels grid;
   VertexSink sink(grid);
   sink.points(points, 1);
   sink.flush();
@@ -58,7 +58,7 @@ TEST_CASE("a position belongs to the voxel nearest to it, halves up", "[voxelize
   CHECK(voxelOf({-1.5, -0.51, -2.49}) == Coord(-1, -1, -2));
 }
 
-TEST_CASE("no path of white voxels joins the sides of a mesh of faces up to one voxel",
+TEST_CASE("no path of inactive voxels joins the sides of a mesh of faces up to one voxel",
           "[voxelize][property]") {
   std::size_t tried = 0;
   double largest = 0;
@@ -88,7 +88,7 @@ TEST_CASE("larger faces do leak", "[voxelize][property]") {
 TEST_CASE("rounding keeps the corners of a face of span one within a unit cube",
           "[voxelize][property]") {
   // The heart of the guarantee: the rounded face then meets a step between voxel centres only at
-  // black voxels. Exact in binary, ties included.
+  // active voxels. Exact in binary, ties included.
   std::mt19937 random(4);
   std::uniform_int_distribution<int> coordinate(-64, 64);
   std::uniform_int_distribution<int> step(-16, 16);
@@ -170,10 +170,10 @@ TEST_CASE("the voxels of points are those that hold one", "[voxelize]") {
 
 TEST_CASE("sinks on several threads fill one grid as one sink does", "[voxelize][parallel]") {
   const std::vector<Vec3d> points = scattered(200000, 60, 3);
-  SurfaceGrid grid;
+  ActiveVoxels grid;
   constexpr std::size_t kParts = 50;
   onThreads(8, [&] {
-    forEach(kParts, 1, [&](std::size_t part) {
+    parallelForEach(kParts, 1, [&](std::size_t part) {
       VertexSink sink(grid);
       const std::size_t size = points.size() / kParts;
       sink.points(std::span(points).subspan(part * size, size), 1);
@@ -185,7 +185,7 @@ TEST_CASE("sinks on several threads fill one grid as one sink does", "[voxelize]
 }
 
 TEST_CASE("a grid that would outgrow its limit is refused", "[voxelize][error]") {
-  SurfaceGrid grid(1 << 20);
+  ActiveVoxels grid(1 << 20);
   VertexSink sink(grid);
   CHECK_THROWS_AS(sink.points(scattered(20000, 5000, 1), 1), LimitError);
 }
@@ -235,7 +235,7 @@ TEST_CASE("a patch marks the voxels of its descendants, up to rounding ties",
     const double size = std::ldexp(0.5, k) * (1 + trial % 3) / 3.0;
     const double far = trial % 2 == 0 ? 20.0 : 16384.0;
     const Patch patch = randomPatch(random, size, Vec3d(far, -far, 0.3 * far));
-    SurfaceGrid grid;
+    ActiveVoxels grid;
     VertexSink sink(grid);
     sink.patch(patch, k, k);
     sink.flush();
@@ -278,7 +278,7 @@ TEST_CASE("a curve marks the voxels of its vertices, up to rounding ties", "[vox
       p = {coordinate(random), coordinate(random), coordinate(random)};
       p = static_cast<double>(n) * p + (trial % 2 == 0 ? Vec3d(3, -4, 5) : Vec3d(16384, 0.5, -900));
     }
-    SurfaceGrid grid;
+    ActiveVoxels grid;
     VertexSink sink(grid);
     sink.curve(points, k, k);
     sink.flush();
@@ -313,7 +313,7 @@ TEST_CASE("every instruction set marks the same voxels", "[voxelize][simd]") {
   for (int trial = 0; trial < 60; ++trial)
     patches.push_back(randomPatch(random, 6 + trial % 30, Vec3d(100, 200, -300)));
   const auto mark = [&] {
-    SurfaceGrid grid;
+    ActiveVoxels grid;
     VertexSink sink(grid);
     for (const Patch& patch : patches) {
       sink.patch(patch, 3 + static_cast<int>(patch.points[1][1].x()) % 4, 1);

@@ -63,7 +63,7 @@ void engine(benchmark::State& state, const PolygonMesh& mesh) {
   onThreads(static_cast<int>(state.range(1)), [&] {
     for (auto _ : state) {
       const auto start = Clock::now();
-      SurfaceGrid grid;
+      ActiveVoxels grid;
       SurfaceReport report;
       markSurface(base, {}, budget, unwatched, grid, report);
       const auto tree = grid.takeTree();
@@ -102,7 +102,7 @@ Work workAt(const PolygonMesh& mesh, int dim) {
   LocalSurface(work.base).emit(faces, collector);
   for (auto& patch : collector.patches)
     if (patch.second >= kLeastTileLevels) work.patches.push_back(std::move(patch));
-  SurfaceGrid grid;
+  ActiveVoxels grid;
   SurfaceReport report;
   Progress unwatched;
   markSurface(work.base, {}, MemoryBudget(0), unwatched, grid, report);
@@ -137,7 +137,7 @@ void timeEach(benchmark::State& state, Once&& once) {
 void evaluation(benchmark::State& state, const Work& work) {
   timeEach(state, [&] {
     std::atomic<std::uint32_t> sum = 0;
-    forEach(work.patches.size(), 1, [&](std::size_t i) {
+    parallelForEach(work.patches.size(), 1, [&](std::size_t i) {
       forTiles(work.patches[i].first, work.patches[i].second,
                [&](const Patch& tile, int k, const VoxelBox&) {
                  sum += sumTile(tileControls(tile), k);
@@ -158,7 +158,7 @@ void marking(benchmark::State& state, const Work& work) {
   timeEach(state, [&] {
     tbb::enumerable_thread_specific<Brick> bricks;
     std::atomic<std::size_t> leaves = 0;
-    forEach(work.patches.size(), 1, [&](std::size_t i) {
+    parallelForEach(work.patches.size(), 1, [&](std::size_t i) {
       Brick& brick = bricks.local();
       forTiles(work.patches[i].first, work.patches[i].second,
                [&](const Patch& tile, int k, const VoxelBox& box) {

@@ -148,9 +148,10 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
       ->type_name("auto|vertex|polygon")
       ->group("Voxels");
   command
-      .add_option("--separating", arguments.separating,
-                  "Paths of white voxels that the surface stops: those through faces (6), or those "
-                  "through edges and corners too (26) (default: 6)")
+      .add_option(
+          "--separating", arguments.separating,
+          "Paths of inactive voxels that the surface stops: those through faces (6), or those "
+          "through edges and corners too (26) (default: 6)")
       ->type_name("6|26")
       ->group("Voxels");
 }

@@ -87,7 +87,7 @@ class LoopOrder {
 
 /// Calls body(begin, end) for parts of [0, count) of at least about `grain` elements, in parallel.
 template <class Body>
-void forParts(std::size_t count, std::size_t grain, Body&& body) {
+void parallelForRanges(std::size_t count, std::size_t grain, Body&& body) {
   LoopOrder order;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain), [&](const auto& range) {
     const LoopOrder::Part part(order);
@@ -97,15 +97,15 @@ void forParts(std::size_t count, std::size_t grain, Body&& body) {
 
 /// Calls body(i) for every i in [0, count), in parallel.
 template <class Integer, class Body>
-void forEach(Integer count, std::size_t grain, Body&& body) {
-  forParts(count, grain, [&](std::size_t begin, std::size_t end) {
+void parallelForEach(Integer count, std::size_t grain, Body&& body) {
+  parallelForRanges(count, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) body(static_cast<Integer>(i));
   });
 }
 
 /// Largest value of body(begin, end) over parts of [0, count), at least 0, in parallel.
 template <class Body>
-double maxOverParts(std::size_t count, std::size_t grain, Body&& body) {
+double parallelMax(std::size_t count, std::size_t grain, Body&& body) {
   LoopOrder order;
   return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, count, grain), 0.0,
@@ -118,7 +118,7 @@ double maxOverParts(std::size_t count, std::size_t grain, Body&& body) {
 
 /// Sorts a vector, in parallel, by an order that must be total.
 template <class Element, class Less = std::less<Element>>
-void sortInParallel(std::vector<Element>& elements, Less less = {}) {
+void parallelSort(std::vector<Element>& elements, Less less = {}) {
 #ifdef __SANITIZE_THREAD__
   std::sort(elements.begin(), elements.end(), less);  // the parts of TBB's sort hide their order
 #else

@@ -6,10 +6,10 @@ namespace vox {
 
 /// The grids a conversion can make (DESIGN section 9).
 enum class GridKind {
-  kDensity,  ///< Float fog volume, 1 at black voxels
-  kMask,     ///< the black voxels
-  kNormal,   ///< Vec3s, unit normals of the surface at black voxels
-  kColor,    ///< Vec3s, linear colour of black voxels
+  kDensity,  ///< Float fog volume, 1 at active voxels
+  kMask,     ///< the active voxels
+  kNormal,   ///< Vec3s, unit normals of the surface at active voxels
+  kColor,    ///< Vec3s, linear colour of active voxels
   kSurface,  ///< Float level set, narrow band of distances to the surface
 };
 inline constexpr NameTable<GridKind, 5> kGridNames = {{{GridKind::kDensity, "density"},

@@ -100,7 +100,7 @@ constexpr std::size_t kMostPending = 256;
 
 }  // namespace
 
-LeafCache::LeafCache(SurfaceGrid& grid) : grid_(grid), words_(kSlots), leaves_(kSlots, kNoLeaf) {
+LeafCache::LeafCache(ActiveVoxels& grid) : grid_(grid), words_(kSlots), leaves_(kSlots, kNoLeaf) {
   pending_.reserve(kMostPending);
 }
 

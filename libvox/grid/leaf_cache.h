@@ -1,8 +1,8 @@
 #pragma once
 
 #include "libvox/core/types.h"
+#include "libvox/grid/active_voxels.h"
 #include "libvox/grid/mark_brick.h"
-#include "libvox/grid/surface_grid.h"
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace vox {
 
-/// One thread's private way into a SurfaceGrid, in three steps that each save the next one work.
+/// One thread's private way into an ActiveVoxels, in three steps that each save the next one work.
 /// Kernels mark voxels as bytes in a brick (mark_brick.h), and collect() packs the leaves that were
 /// touched into bits. Single voxels go into a cache of 8 x 8 x 8 leaves of bits, addressed by leaf
 /// coordinates modulo its size. Both wait in a list that takes the lock of a page once for many
@@ -20,7 +20,7 @@ namespace vox {
 /// One per thread. What it holds reaches the grid with flush() at the latest.
 class LeafCache {
  public:
-  explicit LeafCache(SurfaceGrid& grid);
+  explicit LeafCache(ActiveVoxels& grid);
 
   /// MarkBrick::kMarks bytes, all 0 between calls of collect.
   std::uint8_t* marks() { return brick_.marks(); }
@@ -90,14 +90,14 @@ class LeafCache {
   void send(const openvdb::Coord& origin, const LeafWords& words);
   void drain();
 
-  SurfaceGrid& grid_;
+  ActiveVoxels& grid_;
   MarkBrick brick_;
-  std::vector<LeafWords> words_;                // per slot
-  std::vector<LeafCoord> leaves_;               // whose they are
-  std::vector<SurfaceGrid::PageLeaf> pending_;  // on their way to the grid, to lock pages seldom
+  std::vector<LeafWords> words_;                 // per slot
+  std::vector<LeafCoord> leaves_;                // whose they are
+  std::vector<ActiveVoxels::PageLeaf> pending_;  // on their way to the grid, to lock pages seldom
   struct KnownPage {
     openvdb::Coord origin;
-    SurfaceGrid::Page* page = nullptr;
+    ActiveVoxels::Page* page = nullptr;
   };
   std::array<KnownPage, 8> pages_;  // by the parity of their coordinates
 };

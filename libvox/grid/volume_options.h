@@ -11,7 +11,7 @@ namespace vox {
 
 /// What of an object `density` holds.
 enum class Fill {
-  kSurface,  ///< the black voxels
+  kSurface,  ///< the active voxels
   kSolid,    ///< and what they enclose
 };
 inline constexpr NameTable<Fill, 2> kFillNames = {

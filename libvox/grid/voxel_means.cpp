@@ -1,4 +1,4 @@
-// Sums of vectors, a slot for each black voxel.
+// Sums of vectors, a slot for each active voxel.
 
 #include "libvox/grid/voxel_means.h"
 
@@ -131,9 +131,9 @@ void VoxelMeans::Writer::take(const openvdb::Coord& leafOrigin, const LeafWords&
   }
   for (std::size_t word = 0; word < touched.size(); ++word) {
     BrickSum* const ofWord = sums + 64 * word;
-    for (std::uint64_t black = exists ? wordOf(*means_.leaves_[leaf_], word) : 0; black != 0;
-         black &= black - 1, ++slot) {
-      const int bit = std::countr_zero(black);
+    for (std::uint64_t active = exists ? wordOf(*means_.leaves_[leaf_], word) : 0; active != 0;
+         active &= active - 1, ++slot) {
+      const int bit = std::countr_zero(active);
       if ((touched[word] >> bit & 1U) != 0) slot->add(ofWord[bit], kUnit);
     }
     for (std::uint64_t left = touched[word]; left != 0; left &= left - 1)
@@ -163,7 +163,7 @@ VoxelMeans::Sum VoxelMeans::meanOfNeighbours(const openvdb::Coord& voxel) const 
 std::vector<VoxelMeans::Gap> VoxelMeans::gaps() const {
   constexpr std::size_t kLeavesPerPart = 256;
   std::vector<std::vector<Gap>> parts((leaves_.size() + kLeavesPerPart - 1) / kLeavesPerPart);
-  forEach(parts.size(), 1, [&](std::size_t part) {
+  parallelForEach(parts.size(), 1, [&](std::size_t part) {
     const std::size_t end = std::min(leaves_.size(), (part + 1) * kLeavesPerPart);
     for (std::size_t i = part * kLeavesPerPart; i < end; ++i) {
       std::size_t slot = firstSlots_[i];
@@ -181,8 +181,8 @@ void VoxelMeans::fillGaps() {
   while (!open.empty()) {
     std::vector<Sum> means(open.size());  // none is seen before all of this round are made
     constexpr std::size_t kGapsPerTask = 256;
-    forEach(open.size(), kGapsPerTask,
-            [&](std::size_t i) { means[i] = meanOfNeighbours(open[i].voxel); });
+    parallelForEach(open.size(), kGapsPerTask,
+                    [&](std::size_t i) { means[i] = meanOfNeighbours(open[i].voxel); });
     std::vector<Gap> stillOpen;
     for (std::size_t i = 0; i < open.size(); ++i) {
       if (means[i].count > 0)

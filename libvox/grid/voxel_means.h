@@ -33,7 +33,7 @@ struct VectorSum {
   }
 };
 
-/// Mean vectors of black voxels, of samples that come in whatever order: colours, or normals. The
+/// Mean vectors of active voxels, of samples that come in whatever order: colours, or normals. The
 /// sums are integers, so neither order nor threads show. Source: DESIGN section 8.
 class VoxelMeans {
  public:
@@ -56,11 +56,11 @@ class VoxelMeans {
   class Writer {
    public:
     explicit Writer(VoxelMeans& means) : means_(means) {}
-    /// A sample; of no consequence outside black voxels.
+    /// A sample; of no consequence outside active voxels.
     /// @param vector  clamped to -1 .. 1
     void add(const openvdb::Coord& voxel, const Vec3d& vector);
     /// Takes the sums of some voxels of a leaf and sets them to 0.
-    /// @param touched  these voxels; sums outside black ones are of no consequence
+    /// @param touched  these voxels; sums outside active ones are of no consequence
     /// @param sums     512, in the order of the leaf
     void take(const openvdb::Coord& leafOrigin, const LeafWords& touched, BrickSum* sums);
 
@@ -78,10 +78,10 @@ class VoxelMeans {
   /// takes. After the last sample.
   void fillGaps();
 
-  /// Mean of a black voxel; nothing if no sample is anywhere near.
+  /// Mean of an active voxel; nothing if no sample is anywhere near.
   std::optional<Vec3d> meanOf(const openvdb::Coord& voxel) const;
 
-  /// The sums of the black voxels of a leaf, in the order of the leaf; null if it has none.
+  /// The sums of the active voxels of a leaf, in the order of the leaf; null if it has none.
   const Sum* sumsOf(const openvdb::Coord& leafOrigin) const;
 
  private:
@@ -105,7 +105,7 @@ class VoxelMeans {
   static std::size_t placeInPage(const openvdb::Coord& leafOrigin);
   const std::uint32_t* pageAt(const openvdb::Coord& pageOrigin) const;
   std::uint32_t leafAt(const openvdb::Coord& leafOrigin) const;
-  /// Null if the voxel is not black.
+  /// Null if the voxel is not active.
   const Sum* sumAt(const openvdb::Coord& voxel) const;
   Sum meanOfNeighbours(const openvdb::Coord& voxel) const;
   std::vector<Gap> gaps() const;

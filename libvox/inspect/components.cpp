@@ -74,7 +74,7 @@ std::vector<Entry> activeEntries(const MaskTree& tree) {
       for (std::int32_t y = box.min().y(); y <= box.max().y(); ++y)
         entries.push_back({x, y, box.min().z(), box.max().z(), nullptr, true});
   }
-  sortInParallel(entries);
+  parallelSort(entries);
   return entries;
 }
 
@@ -151,7 +151,7 @@ class Pieces {
   void makePieces() {
     std::vector<std::vector<LeafWords>> found(entries_.size());
     constexpr std::size_t kGrain = 256;
-    forEach(entries_.size(), kGrain, [&](std::size_t i) {
+    parallelForEach(entries_.size(), kGrain, [&](std::size_t i) {
       if (entries_[i].leaf == nullptr) return;
       for (LeafWords left = vox::wordsOf(*entries_[i].leaf, active_); left != LeafWords{};)
         found[i].push_back(takePiece(left, neighbours_));

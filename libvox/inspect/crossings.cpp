@@ -49,7 +49,7 @@ std::vector<LatticeTriangle> onLattice(const ReferenceSurface& surface) {
                    latticePoint(surface.points[c])});
     std::sort(all.back().begin(), all.back().end());
   }
-  sortInParallel(all);
+  parallelSort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
@@ -60,7 +60,7 @@ std::vector<LatticeEdge> boundaryOf(std::span<const LatticeTriangle> triangles) 
   for (const auto& [a, b, c] : triangles)
     for (const LatticeEdge& edge : {LatticeEdge{a, b}, LatticeEdge{b, c}, LatticeEdge{a, c}})
       if (edge[0] != edge[1]) edges.push_back(edge);
-  sortInParallel(edges);
+  parallelSort(edges);
   std::vector<LatticeEdge> boundary;
   for (std::size_t begin = 0; begin < edges.size();) {
     std::size_t end = begin + 1;

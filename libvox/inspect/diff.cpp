@@ -195,7 +195,7 @@ template <class Tree>
 Findings compareTrees(const Tree& a, const Tree& b, const Tolerance& tolerance) {
   const TreePair<Tree> pair(a, b);
   std::vector<Findings> parts(pair.partCount());
-  forEach(parts.size(), 1, [&](std::size_t i) {
+  parallelForEach(parts.size(), 1, [&](std::size_t i) {
     Counter<typename Tree::ValueType> counter(tolerance, parts[i]);
     pair.visitPart(i, counter);
   });

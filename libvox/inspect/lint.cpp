@@ -100,7 +100,7 @@ Values valuesOf(const Tree& tree) {
   tree.getNodes(leaves);
   constexpr std::size_t kGrain = 256;
   std::vector<Values> parts((leaves.size() + kGrain - 1) / kGrain);
-  forEach(parts.size(), 1, [&](std::size_t i) {
+  parallelForEach(parts.size(), 1, [&](std::size_t i) {
     const std::size_t end = std::min(leaves.size(), (i + 1) * kGrain);
     for (std::size_t k = i * kGrain; k < end; ++k) parts[i].add(valuesOfLeaf(*leaves[k]));
   });

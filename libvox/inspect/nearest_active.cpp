@@ -206,7 +206,7 @@ struct NearestActive::Search {
 };
 
 NearestActive::NearestActive(std::vector<ActiveBlock> blocks) : blocks_(std::move(blocks)) {
-  sortInParallel(blocks_, [](const ActiveBlock& a, const ActiveBlock& b) {
+  parallelSort(blocks_, [](const ActiveBlock& a, const ActiveBlock& b) {
     return lessMorton(a.box.min(), b.box.min());
   });
   if (blocks_.empty()) return;
@@ -255,7 +255,8 @@ double largestDistance(std::span<const LeafSurplus> leaves, std::span<const Coor
   if (others.empty()) return kFar;
   std::atomic<double> mostSquared{0};
   constexpr std::size_t kGrain = 16;
-  forEach(leaves.size(), kGrain, [&](std::size_t i) { raiseBy(leaves[i], others, mostSquared); });
+  parallelForEach(leaves.size(), kGrain,
+                  [&](std::size_t i) { raiseBy(leaves[i], others, mostSquared); });
   // One after the other: where the search stops depends on what was found before.
   for (const CoordBBox& box : boxes) raiseBy(box, others, mostSquared);
   return std::sqrt(mostSquared.load());

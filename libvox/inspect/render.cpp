@@ -52,7 +52,7 @@ std::vector<Camera> camerasOf(const VisibleGrids& visible, const RenderOptions& 
   std::vector<Framing> framings;
   for (const View& view : options.views)
     framings.emplace_back(view, options.up, options.projection, aspect);
-  forEach(framings.size(), 1, [&](std::size_t i) {
+  parallelForEach(framings.size(), 1, [&](std::size_t i) {
     forCorners(visible, [&](const Vec3d& corner) { framings[i].add(corner); });
   });
   double halfHeight = 0;
@@ -144,7 +144,7 @@ Image renderViews(const VisibleGrids& visible, const RenderOptions& options, Pro
   const auto tiles =
       static_cast<std::size_t>(tilesAcross(options.width) * tilesAcross(options.height));
   const std::size_t count = tiles * cameras.size();
-  forEach(count, 1, [&](std::size_t i) {
+  parallelForEach(count, 1, [&](std::size_t i) {
     progress.check();
     const int view = static_cast<int>(i / tiles);
     painter.paintTile(cameras[i / tiles], view % sheet.columns * options.width,

@@ -115,7 +115,7 @@ class Space {
   }
 
   const MaskTree& layer() const { return layer_; }
-  bool isWhite(const Coord& voxel) const { return !voxels_.isValueOn(voxel); }
+  bool isInactive(const Coord& voxel) const { return !voxels_.isValueOn(voxel); }
   bool isInLayer(const Coord& voxel) const { return inLayer_.isValueOn(voxel); }
 
   /// Whether a step to a neighbour crosses the surface, away from its boundary.
@@ -165,7 +165,7 @@ class Flood {
       const Coord voxel = left.back();
       left.pop_back();
       forEachNeighbour(voxel, [&](const Coord& next) {
-        if (!space_.isWhite(next)) return;
+        if (!space_.isInactive(next)) return;
         const bool crosses = space_.crosses(voxel, next);
         const bool side = far_.isValueOn(voxel) != crosses;
         if (crosses) cluster.holes.push_back(std::min(voxel, next));
@@ -204,7 +204,7 @@ bool leadsOut(const Space& space, const Coord& start) {
     forEachNeighbour(voxel, [&](const Coord& next) {
       const Coord d = next - start;
       if (std::max({std::abs(d.x()), std::abs(d.y()), std::abs(d.z())}) > kReach) return;
-      if (space.isWhite(next) && !space.crosses(voxel, next) && seen.insert(next).second)
+      if (space.isInactive(next) && !space.crosses(voxel, next) && seen.insert(next).second)
         left.push_back(next);
     });
   }
@@ -220,7 +220,8 @@ std::vector<Coord> throughHoles(const Space& space, std::vector<Coord> steps) {
     for (int axis = 0; axis < 3; ++axis) {
       Coord upper = lower;
       ++upper[axis];
-      if (!space.isWhite(lower) || !space.isWhite(upper) || !space.crosses(lower, upper)) continue;
+      if (!space.isInactive(lower) || !space.isInactive(upper) || !space.crosses(lower, upper))
+        continue;
       if (leadsOut(space, lower) && leadsOut(space, upper)) holes.push_back(lower);
     }
   holes.erase(std::unique(holes.begin(), holes.end()), holes.end());
@@ -241,7 +242,7 @@ SeparationReport findTunnels6(const MaskTree& voxels, const ReferenceSurface& su
   SeparationReport report;
   for (auto voxel = space.layer().cbeginValueOn(); voxel; ++voxel) {
     const Coord at = voxel.getCoord();
-    if (!space.isWhite(at) || flood.hasVisited(at)) continue;
+    if (!space.isInactive(at) || flood.hasVisited(at)) continue;
     const Flood::Cluster cluster = flood.flood(at);
     if (cluster.leaks) note(report, throughHoles(space, cluster.holes));
   }

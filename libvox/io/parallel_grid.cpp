@@ -55,7 +55,7 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
       const auto now = left.first(std::min(left.size(), kMostParts * kLeavesOfPart));
       left = left.subspan(now.size());
       const std::size_t count = (now.size() + kLeavesOfPart - 1) / kLeavesOfPart;
-      forEach(count, 1, [&](std::size_t i) {
+      parallelForEach(count, 1, [&](std::size_t i) {
         const auto part = now.subspan(i * kLeavesOfPart);
         write(part.first(std::min(part.size(), kLeavesOfPart)), format, parts[i]);
       });

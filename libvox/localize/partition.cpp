@@ -52,12 +52,12 @@ FaceOrder spatialOrder(const PolygonMesh& mesh) {
   }
   const double scale = kMost / std::max((high - low).maxCoeff(), 1e-300);
   std::vector<std::pair<std::uint64_t, Index>> codes(count);
-  forEach(count, kFacesPerBlock, [&](Index f) {
+  parallelForEach(count, kFacesPerBlock, [&](Index f) {
     const Vec3d at = (mesh.points[mesh.faceVertices[mesh.faceOffsets[f]]] - low) * scale;
     const auto along = [&](int axis) { return spread(static_cast<std::uint64_t>(at[axis])); };
     codes[f] = {along(0) << 2U | along(1) << 1U | along(2), f};
   });
-  sortInParallel(codes);
+  parallelSort(codes);
   FaceOrder order;
   order.places.resize(count);
   for (const auto& [code, f] : codes) {
@@ -146,7 +146,7 @@ Cover coverInOrder(const PolygonMesh& mesh, const Adjacency& adjacency, const Fa
   const Index faces = mesh.faceCount();
   const Index blocks = faces / facesPerBlock + (faces % facesPerBlock == 0 ? 0 : 1);
   std::vector<Cover> covers(blocks);
-  forEach(blocks, 1, [&](Index b) {
+  parallelForEach(blocks, 1, [&](Index b) {
     const Index first = b * facesPerBlock;
     const Index last = first + std::min(facesPerBlock, faces - first);
     BlockCover block(mesh, adjacency, order, first, last);

@@ -31,7 +31,7 @@ std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& 
     const EdgeCorner edge = edgeOf(c);
     edges[end[edge.low]++] = edge;
   }
-  forEach(mesh.pointCount(), kVerticesPerTask, [&](Index v) {
+  parallelForEach(mesh.pointCount(), kVerticesPerTask, [&](Index v) {
     const Index begin = v == 0 ? 0 : end[v - 1];
     std::sort(edges.begin() + begin, edges.begin() + end[v]);
   });
@@ -41,7 +41,7 @@ std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& 
 Adjacency separateFaces(const PolygonMesh& mesh) {
   Adjacency adjacency{std::vector<Index>(mesh.cornerCount(), kNone),
                       std::vector<Index>(mesh.cornerCount())};
-  forEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
+  parallelForEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
     std::fill(adjacency.cornerFace.begin() + mesh.faceOffsets[f],
               adjacency.cornerFace.begin() + mesh.faceOffsets[f + 1], f);
   });

@@ -39,7 +39,7 @@ std::string allStopRuleNames();
 /// How polygons or vertices become voxels.
 enum class Voxelize {
   kAuto,     ///< whatever is fast for what is asked for
-  kVertex,   ///< every vertex blackens its voxel
+  kVertex,   ///< every vertex activates its voxel
   kPolygon,  ///< polygons are scan-converted
 };
 inline constexpr NameTable<Voxelize, 3> kVoxelizeNames = {

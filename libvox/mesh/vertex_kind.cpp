@@ -34,7 +34,7 @@ std::vector<VertexKind> vertexKinds(const PolygonMesh& mesh, const Adjacency& ad
     ++count[mesh.faceVertices[c]];
   }
   std::vector<VertexKind> kinds(mesh.pointCount(), VertexKind::kUnused);
-  forEach(mesh.pointCount(), kVerticesPerTask, [&](Index v) {
+  parallelForEach(mesh.pointCount(), kVerticesPerTask, [&](Index v) {
     if (corner[v] != kNone) kinds[v] = kindOf(mesh, adjacency, corner[v], count[v]);
   });
   return kinds;

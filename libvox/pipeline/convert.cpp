@@ -45,7 +45,7 @@ void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
 
 /// Polygon conversion of an object, with a warning if its polygons are not what they should be.
 void convertPolygons(const PreparedSurface& surface, const SurfaceOptions& options,
-                     const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
+                     const MemoryBudget& budget, Progress& progress, ActiveVoxels& grid,
                      ObjectReport& part, std::vector<std::string>& warnings) {
   markPolygons(surface.base, surface.way.until, options, surface.way.separation, budget, progress,
                grid, part.polygons);
@@ -78,7 +78,7 @@ openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<PreparedSurface
                                    bool apart, std::span<const double> areas, MemoryBudget& budget,
                                    Progress& progress, ConvertReport& report) {
   const StageTimer timer(report.surfaceSeconds);
-  SurfaceGrid grid(budget.left());
+  ActiveVoxels grid(budget.left());
   auto all = std::make_shared<openvdb::MaskTree>();
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     PreparedSurface& surface = surfaces[i];

@@ -61,7 +61,7 @@ struct ObjectReport {
 struct ConvertReport {
   double voxelSize = 0;  ///< world units
   std::vector<ObjectReport> objects;
-  std::uint64_t activeVoxels = 0;     ///< black voxels, or those of the grid if none were made
+  std::uint64_t activeVoxels = 0;     ///< active voxels, or those of the grid if none were made
   std::vector<std::string> warnings;  ///< one line each: what the user may not expect
   int threads = 0;                    ///< that there were to use
   double prepareSeconds = 0;

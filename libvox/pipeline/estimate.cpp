@@ -38,7 +38,7 @@ struct Measure {
   double taxicabArea = 0;  ///< of |nx| + |ny| + |nz|: the cubes of a lattice that it meets
   double largestArea = 0;  ///< of max(|nx|, |ny|, |nz|): the least cubes that separate its sides
   double volume = 0;       ///< inside
-  double blackVoxels = 0;
+  double activeVoxels = 0;
   double leaves = 0;  ///< nodes of 8^3 voxels
   double lowers = 0;  ///< of 128^3
   double uppers = 0;  ///< of 4096^3
@@ -129,9 +129,9 @@ std::optional<int> levelOf(const ConversionWay& way) {
   return ofLevel ? way.until.levels : std::nullopt;
 }
 
-/// Black voxels per area. Vertices that stand closer than voxels miss some cubes that the surface
+/// Active voxels per area. Vertices that stand closer than voxels miss some cubes that the surface
 /// only just cuts.
-double blackVoxelsOf(const ConversionWay& way, const Measure& m) {
+double activeVoxelsOf(const ConversionWay& way, const Measure& m) {
   constexpr double kOfCubes = 0.75;
   if (!way.polygons) return kOfCubes * m.taxicabArea;
   return way.separation == Separation::k26 ? m.taxicabArea : m.largestArea;
@@ -147,7 +147,7 @@ Measure measureOf(const PreparedSurface& surface, Cubes& leaves, Cubes& lowers) 
   const auto& twin = surface.base.adjacency.twin;
   const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
   if (!open) measure.volume = std::max(0.0, signedVolume(polygons, faces).volume);
-  measure.blackVoxels = blackVoxelsOf(surface.way, measure);
+  measure.activeVoxels = activeVoxelsOf(surface.way, measure);
   return measure;
 }
 
@@ -162,7 +162,7 @@ Measure measureOf(std::span<const PreparedSurface> surfaces) {
     all.area += one.area;
     all.taxicabArea += one.taxicabArea;
     all.volume += one.volume;
-    all.blackVoxels += one.blackVoxels;
+    all.activeVoxels += one.activeVoxels;
     all.textured |= surface.texture.has_value();
     all.smooth |= levelOf(surface.way) != 0;
   }
@@ -180,7 +180,7 @@ constexpr double kMoreFilePerLeaf = 50;  // of values that are all equal
 
 GridEstimate estimateMask(const Measure& m) {
   GridEstimate grid{GridKind::kMask};
-  grid.voxels = m.blackVoxels;
+  grid.voxels = m.activeVoxels;
   grid.leaves = m.leaves;
   grid.bytes = grid.leaves * (sizeof(MaskLeaf) + kHeap) + m.lowers * sizeof(MaskLower) +
                m.uppers * sizeof(MaskUpper);
@@ -199,7 +199,7 @@ GridEstimate estimateDensity(const Measure& m, const VolumeOptions& volume) {
   GridEstimate grid = estimateMask(m);
   grid.kind = GridKind::kDensity;
   const bool solid = volume.fill == Fill::kSolid;
-  if (solid) grid.voxels = m.volume + m.blackVoxels / 2;
+  if (solid) grid.voxels = m.volume + m.activeVoxels / 2;
   grid.peakBytes = bytesOfValues(grid.leaves, m) + (solid ? 2 * grid.bytes : 0);
   grid.bytes = bytesOfValues(grid.leaves, m);
   grid.fileBytes += grid.leaves * kMoreFilePerLeaf;
@@ -267,7 +267,7 @@ Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<cons
   const Measure measure = measureOf(surfaces);
   Estimate all;
   const bool voxels = needsVoxels(kinds);
-  if (voxels) all.voxels = measure.blackVoxels;
+  if (voxels) all.voxels = measure.activeVoxels;
   all.bytes = voxels ? estimateMask(measure).bytes : 0;
   double uppers = voxels ? sizeof(MaskUpper) : 0;
   for (const GridKind kind : kinds) {

@@ -30,7 +30,7 @@ struct GridEstimate {
 struct Estimate {
   double voxelSize = 0;  ///< world units
   int levels = 0;        ///< as levelsOf
-  double voxels = 0;     ///< black; 0 if none are needed
+  double voxels = 0;     ///< active; 0 if none are needed
   std::vector<GridEstimate> grids;
   double bytes = 0;       ///< of all grids at their peak, voxels included
   double fixedBytes = 0;  ///< of them, what does not become less with larger voxels

@@ -43,10 +43,10 @@ std::uint64_t bytesOfGrid(const openvdb::MaskTree& mask) {
 inline constexpr const char* kScatteredAdvice =
     "the model is scattered over much space: use larger voxels, or raise --max-memory";
 
-/// Whether a grid is made from black voxels.
+/// Whether a grid is made from active voxels.
 bool needsVoxels(std::span<const GridKind> kinds);
 
-/// The output grid of a kind, from the black voxels and the surfaces they came from.
+/// The output grid of a kind, from the active voxels and the surfaces they came from.
 /// @throws LimitError  it does not fit into the budget
 /// @throws Cancelled
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,

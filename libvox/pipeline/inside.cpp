@@ -97,7 +97,7 @@ void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
   warnings.push_back(open);
 }
 
-openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& black,
+openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& active,
                                std::span<const PreparedSurface> surfaces,
                                const MemoryBudget& budget, const Progress& progress) {
   std::vector<std::vector<MeshComponent>> components;
@@ -122,7 +122,7 @@ openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& black,
   };
   if (std::any_of(components.begin(), components.end(), hasCavity)) areCavities = areInCavities;
   progress.check();
-  return filled(black, areCavities);
+  return filled(active, areCavities);
 }
 
 }  // namespace vox

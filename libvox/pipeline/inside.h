@@ -22,12 +22,12 @@ struct PreparedSurface;
 void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
                    const GridTransform& transform, std::vector<std::string>& warnings);
 
-/// The black voxels of all objects and what they enclose together (fill.h), except cavities: what
+/// The active voxels of all objects and what they enclose together (fill.h), except cavities: what
 /// lies inside a component that faces inward, and of no other component. What enclosed voxels
 /// belong to is asked of polygons that follow the surfaces within a quarter of a voxel.
 /// @throws LimitError
 /// @throws Cancelled
-openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& black,
+openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& active,
                                std::span<const PreparedSurface> surfaces,
                                const MemoryBudget& budget, const Progress& progress);
 

@@ -66,7 +66,7 @@ double errorOf(const PolygonMesh& mesh, const std::vector<Vec3d>& limits, Index 
 }
 
 double errorOf(const PolygonMesh& mesh, const std::vector<Vec3d>& limits) {
-  return maxOverParts(mesh.faceCount(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
+  return parallelMax(mesh.faceCount(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
     double largest = 0;
     for (std::size_t f = begin; f != end; ++f)
       largest = std::max(largest, errorOf(mesh, limits, static_cast<Index>(f)));

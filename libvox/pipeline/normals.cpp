@@ -89,10 +89,11 @@ void addNormals(const SubdivisionLevel& base, const ConversionWay& way, Progress
   tbb::enumerable_thread_specific<NormalSink> sinks([&] { return NormalSink(means); });
   if (way.until.levels == 0) {
     constexpr std::size_t kFacesPerPart = 64;
-    forParts(base.mesh.faceCount(), kFacesPerPart, [&](std::size_t begin, std::size_t end) {
-      progress.check();
-      sinks.local().faces(base.mesh, static_cast<Index>(begin), static_cast<Index>(end));
-    });
+    parallelForRanges(
+        base.mesh.faceCount(), kFacesPerPart, [&](std::size_t begin, std::size_t end) {
+          progress.check();
+          sinks.local().faces(base.mesh, static_cast<Index>(begin), static_cast<Index>(end));
+        });
     return;
   }
   const PolygonPlan plan = planPolygons(base, way.until, kDefaultSubmeshFaces, progress);

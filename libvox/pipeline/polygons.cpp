@@ -32,7 +32,7 @@ using ScanSinks = tbb::enumerable_thread_specific<ScanSink>;
 
 class ScanSink : public PolygonSink {
  public:
-  ScanSink(SurfaceGrid& grid, Separation separation, const Progress& progress, ScanSinks& all)
+  ScanSink(ActiveVoxels& grid, Separation separation, const Progress& progress, ScanSinks& all)
       : cache_(grid), separation_(separation), progress_(progress), all_(all) {}
 
   void polygons(const PolygonMesh& piece, std::span<const Vec3d>) override {
@@ -76,7 +76,7 @@ class ScanSink : public PolygonSink {
   /// Isolated: a thread that waits for the others must not begin another piece.
   void scanInParts(const Corners& corners) {
     tbb::this_task_arena::isolate([&] {
-      forEach(scanPartCount(corners), 1, [&](std::int64_t part) {
+      parallelForEach(scanPartCount(corners), 1, [&](std::int64_t part) {
         progress_.check();
         ScanSink& sink = all_.local();
         scanTrianglePart(corners, part, separation_,
@@ -96,7 +96,7 @@ class ScanSink : public PolygonSink {
 
 void scanFaces(const PolygonMesh& mesh, Progress& progress, ScanSinks& sinks) {
   const std::size_t parts = (mesh.faceCount() + kFacesPerPart - 1) / kFacesPerPart;
-  forEach(parts, 1, [&](std::size_t part) {
+  parallelForEach(parts, 1, [&](std::size_t part) {
     progress.check();
     const std::size_t begin = part * kFacesPerPart;
     const std::size_t end = std::min<std::size_t>(begin + kFacesPerPart, mesh.faceCount());
@@ -106,7 +106,7 @@ void scanFaces(const PolygonMesh& mesh, Progress& progress, ScanSinks& sinks) {
 
 /// The whole mesh of a level.
 void scanLevel(SubdivisionLevel base, int levels, MemoryBudget& budget, Progress& progress,
-               SurfaceGrid& grid, ScanSinks& sinks) {
+               ActiveVoxels& grid, ScanSinks& sinks) {
   const PolygonMesh mesh = subdividedWithin(budget, std::move(base), levels, progress).mesh;
   budget.take(bytesOf(mesh), "the refined mesh", "use fewer levels, or raise --max-memory");
   grid.setMemoryLimit(grid.memoryBytes() + budget.left());
@@ -116,8 +116,8 @@ void scanLevel(SubdivisionLevel base, int levels, MemoryBudget& budget, Progress
 }  // namespace
 
 void markPolygons(SubdivisionLevel base, const StopRule& until, const SurfaceOptions& options,
-                  Separation separation, MemoryBudget budget, Progress& progress, SurfaceGrid& grid,
-                  PolygonReport& report) {
+                  Separation separation, MemoryBudget budget, Progress& progress,
+                  ActiveVoxels& grid, PolygonReport& report) {
   const std::uint64_t forGrid = budget.left();
   budget.take(grid.memoryBytes(), "the grid", "use larger voxels, or raise --max-memory");
   ScanSinks sinks([&] { return ScanSink(grid, separation, progress, sinks); });

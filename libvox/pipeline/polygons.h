@@ -2,7 +2,7 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
-#include "libvox/grid/surface_grid.h"
+#include "libvox/grid/active_voxels.h"
 #include "libvox/mesh/stop_rule.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/subdivide/level.h"
@@ -32,7 +32,7 @@ struct PolygonReport {
 ///   triangle beyond the range of the scan
 /// @throws Cancelled
 void markPolygons(SubdivisionLevel base, const StopRule& until, const SurfaceOptions& options,
-                  Separation separation, MemoryBudget budget, Progress& progress, SurfaceGrid& grid,
-                  PolygonReport& report);
+                  Separation separation, MemoryBudget budget, Progress& progress,
+                  ActiveVoxels& grid, PolygonReport& report);
 
 }  // namespace vox

@@ -50,7 +50,7 @@ class TaskSink : public PolygonSink {
     const double part = tiles.vertices() / allVertices_ / static_cast<double>(tiles.count());
     // Isolated: a thread that waits must not begin another submesh.
     tbb::this_task_arena::isolate([&] {
-      forEach(tiles.count(), 1, [&](std::int64_t tile) {
+      parallelForEach(tiles.count(), 1, [&](std::int64_t tile) {
         progress_.check();
         tiles.emit(tile, sinkOfThread_());
         progress_.done(part);
@@ -106,7 +106,7 @@ PolygonPlan planPolygons(const SubdivisionLevel& base, const StopRule& until, In
   plan.depths.resize(base.mesh.cornerCount());
   plan.rule = std::make_shared<const DepthRule>(until);
   tbb::enumerable_thread_specific<LocalPolygons> locals([&] { return LocalPolygons(base); });
-  forEach(plan.partition.size(), 1, [&](Index s) {
+  parallelForEach(plan.partition.size(), 1, [&](Index s) {
     progress.check();
     locals.local().findDepths(plan.partition.submesh(s), *plan.rule, plan.depths);
   });
@@ -121,7 +121,7 @@ void makePolygons(const SubdivisionLevel& base, const PolygonPlan& plan, Progres
                   const std::function<PolygonSink&()>& sinkOfThread) {
   requireFeasible(plan);
   tbb::enumerable_thread_specific<LocalPolygons> locals([&] { return LocalPolygons(base); });
-  forEach(plan.partition.size(), 1, [&](Index s) {
+  parallelForEach(plan.partition.size(), 1, [&](Index s) {
     const auto faces = plan.partition.submesh(s);
     TaskSink sink(sinkOfThread, progress, plan.vertices);
     locals.local().emit(faces, plan.depths, plan.rule.get(), sink);
@@ -138,7 +138,7 @@ TriangleSoup triangleSoup(const SubdivisionLevel& base, const StopRule& until, P
   requireFeasible(plan);
   std::vector<SoupSink> parts(plan.partition.size());
   tbb::enumerable_thread_specific<LocalPolygons> locals([&] { return LocalPolygons(base); });
-  forEach(plan.partition.size(), 1, [&](Index s) {
+  parallelForEach(plan.partition.size(), 1, [&](Index s) {
     progress.check();
     locals.local().emit(plan.partition.submesh(s), plan.depths, plan.rule.get(), parts[s]);
   });

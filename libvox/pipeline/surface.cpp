@@ -173,7 +173,7 @@ class SubmeshSink : public SurfaceSink {
 std::vector<double> partsOf(const Partition& partition, const PolygonMesh& mesh) {
   std::vector<double> parts(partition.size(), 0.0);
   constexpr std::size_t kSubmeshesPerTask = 16;
-  forEach(partition.size(), kSubmeshesPerTask, [&](Index s) {
+  parallelForEach(partition.size(), kSubmeshesPerTask, [&](Index s) {
     for (const Index f : partition.submesh(s))
       parts[s] += workOfSurface(areaOf(mesh, f), mesh.faceSize(f));
   });
@@ -190,7 +190,7 @@ void markSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& options, 
       progress.watched() ? partsOf(partition, base.mesh) : std::vector<double>(partition.size());
   tbb::enumerable_thread_specific<LocalSurface> surfaces([&] { return LocalSurface(base); });
   DeepPatches deepPatches(sinks, progress, options.localize == Localize::kDuring);
-  forEach(partition.size(), 1, [&](Index s) {
+  parallelForEach(partition.size(), 1, [&](Index s) {
     progress.check();
     SubmeshSink sink(sinks.local(), deepPatches, std::make_shared<SubmeshPart>(progress, parts[s]));
     surfaces.local().emit(partition.submesh(s), sink);
@@ -219,7 +219,7 @@ int globalSteps(const PolygonMesh& mesh) {
 }
 
 void markWhole(const SubdivisionLevel& base, const MemoryBudget& budget, Progress& progress,
-               const SurfaceGrid& grid, VertexSink& sink) {
+               const ActiveVoxels& grid, VertexSink& sink) {
   const int steps = globalSteps(base.mesh);
   int step = 0;
   emitGlobally(base, sink, [&](const SubdivisionLevel& level) {
@@ -260,7 +260,7 @@ std::string allLocalizeNames() {
 }
 
 void markSurface(const SubdivisionLevel& base, const SurfaceOptions& options,
-                 const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
+                 const MemoryBudget& budget, Progress& progress, ActiveVoxels& grid,
                  SurfaceReport& report) {
   ThreadSinks sinks([&] { return VertexSink(grid); });
   if (options.localize == Localize::kOff)

@@ -3,7 +3,7 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/core/types.h"
-#include "libvox/grid/surface_grid.h"
+#include "libvox/grid/active_voxels.h"
 #include "libvox/subdivide/level.h"
 #include "libvox/voxelize/vertex_sink.h"
 
@@ -50,7 +50,7 @@ struct SurfaceReport {
 /// @throws LimitError  the grid may not grow; kOff: the whole mesh would be too large
 /// @throws Cancelled
 void markSurface(const SubdivisionLevel& base, const SurfaceOptions& options,
-                 const MemoryBudget& budget, Progress& progress, SurfaceGrid& grid,
+                 const MemoryBudget& budget, Progress& progress, ActiveVoxels& grid,
                  SurfaceReport& report);
 
 }  // namespace vox

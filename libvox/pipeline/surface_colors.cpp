@@ -36,7 +36,7 @@ void forRows(std::int64_t rows, std::int64_t columns, Body&& body) {
     for (std::int64_t row = 0; row < rows; ++row) body(row);
     return;
   }
-  forEach(rows, static_cast<std::size_t>(grain), body);
+  parallelForEach(rows, static_cast<std::size_t>(grain), body);
 }
 
 class VertexSamples : public ColoredSink {
@@ -81,7 +81,7 @@ void sampleVertices(const SubdivisionLevel& base, std::span<const Vec3d> colors,
   tbb::enumerable_thread_specific<ColoredSurface> surfaces(
       [&] { return ColoredSurface(base, colors); });
   VertexSamples samples(writers);
-  forEach(partition.size(), 1, [&](Index s) {
+  parallelForEach(partition.size(), 1, [&](Index s) {
     progress.check();
     // A thread that waits for the rows of one submesh must not begin another.
     tbb::this_task_arena::isolate([&] { surfaces.local().emit(partition.submesh(s), samples); });
@@ -144,7 +144,7 @@ void samplePolygons(const ColoredLevel& colored, bool ofCorners, const Progress&
                     Writers& writers) {
   constexpr std::size_t kFacesPerTask = 64;
   const PolygonMesh& mesh = colored.level.mesh;
-  forParts(mesh.faceCount(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallelForRanges(mesh.faceCount(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
     progress.check();
     std::vector<Vec3d> corners;
     std::vector<std::array<Index, 3>> triangles;

@@ -36,7 +36,7 @@ void samplePatch(const Patch& patch, int levels, const Progress& progress, Sampl
   progress.check();
   if (levels <= kMostLevelsOfTask) return samplers.local().patch(patch, levels, levels);
   const auto children = childrenOf(patch);
-  forEach(4, 1, [&](std::size_t child) {
+  parallelForEach(4, 1, [&](std::size_t child) {
     samplePatch(children[child / 2][child % 2], levels - 1, progress, samplers);
   });
 }
@@ -66,9 +66,9 @@ void sampleThin(const ThinPatch& thin, const Progress& progress, NormalSampler& 
 void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
                   const Progress& progress, VertexNormals& normals, Samplers& samplers) {
   const LevelOneVertex vertex = normals.vertices.at(corner);
-  // As many vertices of a patch as blacken voxels: with fewer, voxels would be left out.
+  // As many vertices of a patch as activate voxels: with fewer, voxels would be left out.
   const auto sample = [&](const Patch& patch) {
-    forParts(
+    forEachPatchPart(
         PatchPart(patch), 0,
         [&](const ThinPatch& thin, int) { sampleThin(thin, progress, samplers.local()); },
         [&](const Patch& part, int levels, int) {
@@ -93,7 +93,7 @@ void addNormalsOfVertices(const SubdivisionLevel& base, Progress& progress, Voxe
   const Partition partition = coverGreedily(base.mesh, base.adjacency, kDefaultSubmeshFaces);
   Samplers samplers([&] { return NormalSampler(means); });
   tbb::enumerable_thread_specific<VertexNormals> threads([&] { return VertexNormals(base); });
-  forEach(partition.size(), 1, [&](Index s) {
+  parallelForEach(partition.size(), 1, [&](Index s) {
     // Isolated: a thread that waits for parts of a patch must not begin another submesh.
     tbb::this_task_arena::isolate([&] {
       VertexNormals& normals = threads.local();

@@ -27,7 +27,7 @@ bool canonicalize(std::span<Index> face) {
 
 std::vector<std::uint8_t> canonicalizeFaces(PolygonMesh& mesh) {
   std::vector<std::uint8_t> reversed(mesh.faceCount());
-  forEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
+  parallelForEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
     reversed[f] = canonicalize({mesh.faceVertices.data() + mesh.faceOffsets[f], mesh.faceSize(f)});
   });
   return reversed;
@@ -39,7 +39,7 @@ std::vector<Index> firstAlike(const PolygonMesh& mesh) {
   canonical.faceVertices = mesh.faceVertices;
   canonicalizeFaces(canonical);
   std::vector<Index> order = numbered(mesh.faceCount());
-  sortInParallel(order, [&](Index f, Index g) {
+  parallelSort(order, [&](Index f, Index g) {
     const auto a = canonical.face(f);
     const auto b = canonical.face(g);
     if (a.size() != b.size()) return a.size() < b.size();

@@ -62,8 +62,9 @@ std::vector<Index> interiorVertices(const PolygonMesh& mesh, const Adjacency& ad
 Eigen::Matrix3Xd gaps(LiftSystem& system, const PolygonMesh& mesh,
                       const std::vector<Vec3d>& wanted) {
   Eigen::Matrix3Xd gap = system.sumCorners(mesh.points);
-  forEach(system.rows(), kRowsPerTask,
-          [&](Index row) { gap.col(row) = system.valence(row) * wanted[row] - gap.col(row); });
+  parallelForEach(system.rows(), kRowsPerTask, [&](Index row) {
+    gap.col(row) = system.valence(row) * wanted[row] - gap.col(row);
+  });
   if (!gap.allFinite())
     throw LimitError("interpolation overflows; scale the model to smaller coordinates");
   return gap;

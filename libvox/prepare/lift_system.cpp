@@ -77,9 +77,9 @@ void LiftSystem::imageOfFace(Index f, std::span<const Vec3d> positions) {
 }
 
 Eigen::Matrix3Xd LiftSystem::sumCorners(std::span<const Vec3d> positions) {
-  forEach(mesh_.faceCount(), kFacesPerTask, [&](Index f) { imageOfFace(f, positions); });
+  parallelForEach(mesh_.faceCount(), kFacesPerTask, [&](Index f) { imageOfFace(f, positions); });
   Eigen::Matrix3Xd sums(3, rows());
-  forEach(rows(), kVerticesPerTask, [&](Index row) {
+  parallelForEach(rows(), kVerticesPerTask, [&](Index row) {
     Vec3d sum = images_[corners_[cornerOffsets_[row]]];
     for (Index k = cornerOffsets_[row] + 1; k < cornerOffsets_[row + 1]; ++k)
       sum += images_[corners_[k]];
@@ -89,7 +89,8 @@ Eigen::Matrix3Xd LiftSystem::sumCorners(std::span<const Vec3d> positions) {
 }
 
 Eigen::Matrix3Xd LiftSystem::multiply(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
-  forEach(rows(), kVerticesPerTask, [&](Index row) { positions_[vertices_[row]] = x.col(row); });
+  parallelForEach(rows(), kVerticesPerTask,
+                  [&](Index row) { positions_[vertices_[row]] = x.col(row); });
   return sumCorners(positions_);
 }
 

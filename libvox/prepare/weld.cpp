@@ -26,7 +26,7 @@ std::vector<Index> weldEqual(const std::vector<Vec3d>& points, const std::vector
       if (p[axis] != q[axis]) return p[axis] < q[axis];
     return a < b;
   };
-  sortInParallel(order, before);
+  parallelSort(order, before);
 
   std::vector<Index> target = numbered(points.size());
   for (std::size_t k = 1; k < order.size(); ++k)

@@ -41,8 +41,8 @@ class AngleCriterion : public Criterion {
     };
     take(faces.hasR, faces.f.normal, r);
     take(faces.hasL, faces.f.normal, l);
-    take(faces.hasR && faces.hasK, faces.k.normal, r);
-    take(faces.hasL && faces.hasK, faces.k.normal, l);
+    take(faces.hasR && faces.hasVFace, faces.vFace.normal, r);
+    take(faces.hasL && faces.hasVFace, faces.vFace.normal, l);
     return largest <= limit_;
   }
 

@@ -280,7 +280,7 @@ ColoredSurface::ColoredSurface(const SubdivisionLevel& base, std::span<const Vec
       inside_(base.mesh.faceCount(), 0),
       seen_(base.mesh.pointCount(), 0) {}
 
-void ColoredSurface::addRing(Index corner) {
+void ColoredSurface::addOneRing(Index corner) {
   if (std::exchange(seen_[base_.mesh.faceVertices[corner]], 1) != 0) return;
   for (const Index k : oneRing(base_.mesh, base_.adjacency, corner).corners) {
     const Index f = base_.adjacency.cornerFace[k];
@@ -291,7 +291,7 @@ void ColoredSurface::addRing(Index corner) {
 ColoredLevel ColoredSurface::cutOut(std::span<const Index> faces) {
   faces_.clear();
   for (const Index f : faces)
-    for (Index c = base_.mesh.faceOffsets[f]; c < base_.mesh.faceOffsets[f + 1]; ++c) addRing(c);
+    for (Index c = base_.mesh.faceOffsets[f]; c < base_.mesh.faceOffsets[f + 1]; ++c) addOneRing(c);
   for (const Index f : faces_) inside_[f] = 0;
   for (const Index f : faces)
     for (const Index v : base_.mesh.face(f)) seen_[v] = 0;

@@ -38,10 +38,11 @@ ColoredLevel nextColoredLevel(ColoredLevel level);
 
 /// The vertices of a subdivided surface with their colours, each at the level where the faces
 /// around it are fine enough for vertex conversion (stop.h), or in regular patches half a voxel
-/// apart at most, on rows so far apart. So nearly every black voxel holds some. Submesh by submesh:
-/// the faces around its pending vertices are cut out of each level, with those around them, and
-/// subdivided as a mesh of their own; regular vertices leave as patches. So what is held is a small
-/// multiple of the submesh. The bits of what is emitted do not depend on how the mesh is cut.
+/// apart at most, on rows so far apart. So nearly every active voxel holds some. Submesh by
+/// submesh: the faces around its pending vertices are cut out of each level, with those around
+/// them, and subdivided as a mesh of their own; regular vertices leave as patches. So what is held
+/// is a small multiple of the submesh. The bits of what is emitted do not depend on how the mesh is
+/// cut.
 ///
 /// One object per thread. Plain rather than fast: five to ten times the cost of LocalSurface.
 class ColoredSurface {
@@ -54,7 +55,7 @@ class ColoredSurface {
   void emit(std::span<const Index> faces, ColoredSink& sink);
 
  private:
-  void addRing(Index corner);
+  void addOneRing(Index corner);
   ColoredLevel cutOut(std::span<const Index> faces);
 
   const SubdivisionLevel& base_;

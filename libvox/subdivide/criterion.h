@@ -11,9 +11,9 @@ namespace vox {
 /// What lies around a vertex at its own level.
 struct VertexFaces {
   Vec3d at, next, previous, right, left;  ///< the vertex and those next to it, across R and L
-  FaceShape f, k;
+  FaceShape f, vFace;
   std::array<Vec3d, 4> r, l;  ///< as quads
-  bool hasR = true, hasL = true, hasK = true;
+  bool hasR = true, hasL = true, hasVFace = true;
 };
 
 /// A limit that the polygons are to keep. Lengths in voxels.

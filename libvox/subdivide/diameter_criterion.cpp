@@ -32,7 +32,7 @@ class DiameterCriterion : public Criterion {
 
 double largestDiameter(const VertexFaces& faces) {
   double size = faces.f.diameter;
-  if (faces.hasK) size = std::max(size, faces.k.diameter);
+  if (faces.hasVFace) size = std::max(size, faces.vFace.diameter);
   if (faces.hasR) size = std::max(size, diameter(faces.r));
   if (faces.hasL) size = std::max(size, diameter(faces.l));
   return size;

@@ -20,33 +20,33 @@ constexpr Index kCornersPerTask = 4096;
 
 /// Where the children of the corners of one level stand in the next.
 struct ChildLayout {
-  Index edgeFaces = 0;            ///< number of E-faces
-  Index vertexFaces = 0;          ///< number of whole V-faces
-  std::vector<Index> boundary;    ///< boundary corners that get half faces; k names both faces
-  std::vector<Index> edge;        ///< per edge leader: number of its E-face
-  std::vector<Index> ring;        ///< per ring leader: number of its V-face, else kNone; half ones
-                                  ///< come last and are led by their boundary corner
-  std::vector<Index> ringOffset;  ///< per V-face, + 1: first slot of the V-faces' corners
-  std::vector<Index> ringSlot;    ///< per corner: its slot among the V-faces' corners, or kNone
+  Index edgeFaces = 0;          ///< number of E-faces
+  Index vertexFaces = 0;        ///< number of whole V-faces
+  std::vector<Index> boundary;  ///< boundary corners that get half faces; k names both faces
+  std::vector<Index> edge;      ///< per edge leader: number of its E-face
+  std::vector<Index> vFace;     ///< per V-face leader: number of its V-face, else kNone; half ones
+                                ///< come last and are led by their boundary corner
+  std::vector<Index> vFaceOffset;  ///< per V-face, + 1: first slot of the V-faces' corners
+  std::vector<Index> vFaceSlot;    ///< per corner: its slot among the V-faces' corners, or kNone
 
   Index halfFaces() const { return static_cast<Index>(boundary.size()); }
 };
 
-std::vector<Index> ledRingSizes(const SubdivisionLevel& level) {
+std::vector<Index> ledOneRingSizes(const SubdivisionLevel& level) {
   std::vector<Index> sizes(level.mesh.cornerCount());
-  forEach(level.mesh.cornerCount(), kCornersPerTask,
-          [&](Index c) { sizes[c] = ledRingSize(level.mesh, level.adjacency, c); });
+  parallelForEach(level.mesh.cornerCount(), kCornersPerTask,
+                  [&](Index c) { sizes[c] = ledOneRingSize(level.mesh, level.adjacency, c); });
   return sizes;
 }
 
-void placeRingSlots(const SubdivisionLevel& level, ChildLayout& layout) {
-  layout.ringSlot.assign(level.mesh.cornerCount(), kNone);
-  forEach(level.mesh.cornerCount(), kCornersPerTask, [&](Index c) {
-    if (layout.ring[c] == kNone) return;
-    Index slot = layout.ringOffset[layout.ring[c]];
+void placeVFaceSlots(const SubdivisionLevel& level, ChildLayout& layout) {
+  layout.vFaceSlot.assign(level.mesh.cornerCount(), kNone);
+  parallelForEach(level.mesh.cornerCount(), kCornersPerTask, [&](Index c) {
+    if (layout.vFace[c] == kNone) return;
+    Index slot = layout.vFaceOffset[layout.vFace[c]];
     Index k = c;
     do {
-      layout.ringSlot[k] = slot++;
+      layout.vFaceSlot[k] = slot++;
       k = nextAroundVertex(level.mesh, level.adjacency, k);
     } while (k != kNone && k != c);
   });
@@ -56,12 +56,12 @@ void placeRingSlots(const SubdivisionLevel& level, ChildLayout& layout) {
 void placeHalfVertexFaces(const SubdivisionLevel& level, ChildLayout& layout) {
   layout.boundary = boundaryCorners(level.adjacency);
   for (Index k = 0; k < layout.halfFaces(); ++k) {
-    layout.ring[layout.boundary[k]] = layout.vertexFaces + k;
+    layout.vFace[layout.boundary[k]] = layout.vertexFaces + k;
     Index size = 2;
     for (Index c = layout.boundary[k]; c != kNone;
          c = nextAroundVertex(level.mesh, level.adjacency, c))
       ++size;
-    layout.ringOffset.push_back(layout.ringOffset.back() + size);
+    layout.vFaceOffset.push_back(layout.vFaceOffset.back() + size);
   }
 }
 
@@ -69,16 +69,16 @@ ChildLayout layOutChildren(const SubdivisionLevel& level) {
   ChildLayout layout;
   const Index corners = level.mesh.cornerCount();
   layout.edge.assign(corners, kNone);
-  layout.ring = ledRingSizes(level);
-  layout.ringOffset.push_back(0);
+  layout.vFace = ledOneRingSizes(level);
+  layout.vFaceOffset.push_back(0);
   for (Index c = 0; c < corners; ++c) {
     if (leadsEdge(level.adjacency, c)) layout.edge[c] = layout.edgeFaces++;
-    const Index valence = layout.ring[c];
-    layout.ring[c] = valence < 3 ? kNone : layout.vertexFaces++;
-    if (valence >= 3) layout.ringOffset.push_back(layout.ringOffset.back() + valence);
+    const Index valence = layout.vFace[c];
+    layout.vFace[c] = valence < 3 ? kNone : layout.vertexFaces++;
+    if (valence >= 3) layout.vFaceOffset.push_back(layout.vFaceOffset.back() + valence);
   }
   if (level.boundary == BoundaryStage::kExtend) placeHalfVertexFaces(level, layout);
-  placeRingSlots(level, layout);
+  placeVFaceSlots(level, layout);
   return layout;
 }
 
@@ -101,18 +101,18 @@ class ChildTopology {
         layout_(layout),
         child_(child),
         firstEdgeCorner_(mesh_.cornerCount()),
-        firstRingCorner_(firstEdgeCorner_ + 4 * layout.edgeFaces),
-        firstHalfEdgeCorner_(firstRingCorner_ + layout.ringOffset.back()) {}
+        firstVFaceCorner_(firstEdgeCorner_ + 4 * layout.edgeFaces),
+        firstHalfEdgeCorner_(firstVFaceCorner_ + layout.vFaceOffset.back()) {}
 
   void writeFaceOffsets() {
     auto& offsets = child_.mesh.faceOffsets;
-    const Index firstHalfEdgeFace = faceOfRing(layout_.vertexFaces + layout_.halfFaces());
+    const Index firstHalfEdgeFace = faceOfVFace(layout_.vertexFaces + layout_.halfFaces());
     offsets.resize(std::size_t{firstHalfEdgeFace} + layout_.halfFaces() + 1);
     std::copy(mesh_.faceOffsets.begin(), mesh_.faceOffsets.end(), offsets.begin());
     for (Index e = 0; e < layout_.edgeFaces; ++e)
       offsets[mesh_.faceCount() + e] = firstEdgeCorner_ + 4 * e;
     for (Index v = 0; v < layout_.vertexFaces + layout_.halfFaces(); ++v)
-      offsets[faceOfRing(v)] = firstRingCorner_ + layout_.ringOffset[v];
+      offsets[faceOfVFace(v)] = firstVFaceCorner_ + layout_.vFaceOffset[v];
     for (Index k = 0; k <= layout_.halfFaces(); ++k)
       offsets[firstHalfEdgeFace + k] = halfEdgeCorner(k, 0);
   }
@@ -122,7 +122,7 @@ class ChildTopology {
     Index twin = kNone;
     if (t != kNone)
       twin = c < t ? edgeCorner(c, 0) : edgeCorner(t, 2);
-    else if (layout_.ring[c] != kNone)
+    else if (layout_.vFace[c] != kNone)
       twin = halfEdgeCorner(halfFaceOf(c), 0);
     set(c, c, adjacency_.cornerFace[c], twin);
   }
@@ -139,45 +139,45 @@ class ChildTopology {
   }
 
   void writeVertexFace(Index leader) {
-    const Index face = faceOfRing(layout_.ring[leader]);
+    const Index face = faceOfVFace(layout_.vFace[leader]);
     Index x = leader;
     do {
-      set(ringCorner(x), x, face, edgeFacing(x));
+      set(vFaceCorner(x), x, face, edgeFacing(x));
       x = nextAroundVertex(mesh_, adjacency_, x);
     } while (x != leader);
   }
 
   void writeHalfVertexFace(Index k) {
-    const Index face = faceOfRing(layout_.vertexFaces + k);
+    const Index face = faceOfVFace(layout_.vertexFaces + k);
     Index x = layout_.boundary[k];
     for (Index y = nextAroundVertex(mesh_, adjacency_, x); y != kNone;
          y = nextAroundVertex(mesh_, adjacency_, x)) {
-      set(ringCorner(x), x, face, edgeFacing(x));
+      set(vFaceCorner(x), x, face, edgeFacing(x));
       x = y;
     }
     const Index arriving = halfFaceOf(previousCorner(mesh_, adjacency_, x));
-    set(ringCorner(x), x, face, halfEdgeCorner(arriving, 3));
-    set(ringCorner(x) + 1, boundaryPoint(arriving) + 1, face, kNone);
-    set(ringCorner(x) + 2, boundaryPoint(k), face, halfEdgeCorner(k, 1));
+    set(vFaceCorner(x), x, face, halfEdgeCorner(arriving, 3));
+    set(vFaceCorner(x) + 1, boundaryPoint(arriving) + 1, face, kNone);
+    set(vFaceCorner(x) + 2, boundaryPoint(k), face, halfEdgeCorner(k, 1));
   }
 
   void writeHalfEdgeFace(Index k) {
     const Index c = layout_.boundary[k];
     const Index nextC = nextCorner(mesh_, adjacency_, c);
-    const Index face = faceOfRing(layout_.vertexFaces + layout_.halfFaces()) + k;
-    const Index afterRing = firstRingCorner_ + layout_.ringOffset[layout_.vertexFaces + k + 1];
+    const Index face = faceOfVFace(layout_.vertexFaces + layout_.halfFaces()) + k;
+    const Index afterVFace = firstVFaceCorner_ + layout_.vFaceOffset[layout_.vertexFaces + k + 1];
     set(halfEdgeCorner(k, 0), nextC, face, c);
-    set(halfEdgeCorner(k, 1), c, face, afterRing - 1);
+    set(halfEdgeCorner(k, 1), c, face, afterVFace - 1);
     set(halfEdgeCorner(k, 2), boundaryPoint(k), face, kNone);
-    set(halfEdgeCorner(k, 3), boundaryPoint(k) + 1, face, ringCorner(nextC));
+    set(halfEdgeCorner(k, 3), boundaryPoint(k) + 1, face, vFaceCorner(nextC));
   }
 
  private:
-  Index faceOfRing(Index ring) const { return mesh_.faceCount() + layout_.edgeFaces + ring; }
-  Index ringCorner(Index x) const { return firstRingCorner_ + layout_.ringSlot[x]; }
+  Index faceOfVFace(Index vFace) const { return mesh_.faceCount() + layout_.edgeFaces + vFace; }
+  Index vFaceCorner(Index x) const { return firstVFaceCorner_ + layout_.vFaceSlot[x]; }
 
   Index halfFaceOf(Index boundaryCorner) const {
-    return layout_.ring[boundaryCorner] - layout_.vertexFaces;
+    return layout_.vFace[boundaryCorner] - layout_.vertexFaces;
   }
   Index halfEdgeCorner(Index k, Index i) const { return firstHalfEdgeCorner_ + 4 * k + i; }
 
@@ -197,7 +197,7 @@ class ChildTopology {
   /// What the E-face edge into corner x faces across the vertex: the V-face, or at a vertex with
   /// two faces the other E-face, or nothing at the boundary.
   Index acrossVertex(Index x) const {
-    if (layout_.ringSlot[x] != kNone) return ringCorner(x);
+    if (layout_.vFaceSlot[x] != kNone) return vFaceCorner(x);
     const Index y = nextAroundVertex(mesh_, adjacency_, x);
     const bool valenceTwo = y != kNone && nextAroundVertex(mesh_, adjacency_, y) == x;
     return valenceTwo ? edgeFacing(y) : kNone;
@@ -214,7 +214,7 @@ class ChildTopology {
   const ChildLayout& layout_;
   SubdivisionLevel& child_;
   Index firstEdgeCorner_;
-  Index firstRingCorner_;
+  Index firstVFaceCorner_;
   Index firstHalfEdgeCorner_;
 };
 
@@ -237,7 +237,7 @@ SubdivisionLevel baseLevel(PolygonMesh mesh, BoundaryRule rule) {
   return level;
 }
 
-Index ledRingSize(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
+Index ledOneRingSize(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
   Index left = c;
   Index right = c;
   for (Index steps = 1;; ++steps) {
@@ -263,8 +263,9 @@ SubdivisionLevel nextLevel(const SubdivisionLevel& level, std::vector<Vec3d> ima
   requireFits(nextCornerCount(level));
   const ChildLayout layout = layOutChildren(level);
   const Index corners = level.mesh.cornerCount();
-  const std::size_t childCorners =
-      corners + 4 * (std::size_t{layout.edgeFaces} + layout.halfFaces()) + layout.ringOffset.back();
+  const std::size_t childCorners = corners +
+                                   4 * (std::size_t{layout.edgeFaces} + layout.halfFaces()) +
+                                   layout.vFaceOffset.back();
 
   SubdivisionLevel child;
   if (level.boundary != BoundaryStage::kPlain) child.boundary = BoundaryStage::kStrips;
@@ -275,12 +276,12 @@ SubdivisionLevel nextLevel(const SubdivisionLevel& level, std::vector<Vec3d> ima
 
   ChildTopology topology(level, layout, child);
   topology.writeFaceOffsets();
-  forEach(corners, kCornersPerTask, [&](Index c) {
+  parallelForEach(corners, kCornersPerTask, [&](Index c) {
     topology.writeFaceCorner(c);
     if (layout.edge[c] != kNone) topology.writeEdgeFace(c);
-    if (layout.ring[c] < layout.vertexFaces) topology.writeVertexFace(c);
+    if (layout.vFace[c] < layout.vertexFaces) topology.writeVertexFace(c);
   });
-  forEach(layout.halfFaces(), kCornersPerTask, [&](Index k) {
+  parallelForEach(layout.halfFaces(), kCornersPerTask, [&](Index k) {
     topology.writeHalfVertexFace(k);
     topology.writeHalfEdgeFace(k);
   });

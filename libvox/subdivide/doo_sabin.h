@@ -44,6 +44,6 @@ inline bool leadsEdge(const Adjacency& adjacency, Index c) {
 
 /// Valence of the vertex of c if c is the lowest corner of a closed one-ring, else 0. Walks both
 /// ways round at once and stops at the first lower corner: O(n log n) for all n corners of a ring.
-Index ledRingSize(const PolygonMesh& mesh, const Adjacency& adjacency, Index c);
+Index ledOneRingSize(const PolygonMesh& mesh, const Adjacency& adjacency, Index c);
 
 }  // namespace vox

@@ -1,4 +1,4 @@
-// Subdivision around isolated faces that are not quads, a ring at a time.
+// Subdivision around isolated faces that are not quads, a level at a time.
 
 #include "libvox/subdivide/extraordinary.h"
 
@@ -49,7 +49,7 @@ void descend(const VertexSplit& split, std::size_t i, ExtraordinaryFace& next) {
   next.far[i] = split.r[1];
   next.near[j] = split.l[1];
   next.far[j] = split.l[0];
-  next.corner[i] = split.k0;
+  next.corner[i] = split.vFace0;
   next.active[i] = true;
 }
 
@@ -73,10 +73,10 @@ VertexSplit ExtraordinaryFace::splitAt(std::span<const Vec3d> images, std::size_
   split.fPrevious = images[j];
   split.r = quadImages(at, inner[n], far[i], near[i]);
   split.l = quadImages(at, inner[j], near[j], far[j]);
-  split.setK(quadImages(at, near[i], corner[i], far[j]));
+  split.setVFace(quadImages(at, near[i], corner[i], far[j]));
   split.hasR = hasEdge[i];
   split.hasL = hasEdge[j];
-  split.hasK = hasCorner[i];
+  split.hasVFace = hasCorner[i];
   return split;
 }
 
@@ -108,14 +108,14 @@ void ExtraordinarySubdivision::run(ExtraordinaryFace& face, int level, SurfaceSi
         continue;
       }
       const VertexSplit split = face.splitAt(innerImages_, i);
-      if (!face.mirrored() && split.hasR && split.hasL && split.hasK &&
+      if (!face.mirrored() && split.hasR && split.hasL && split.hasVFace &&
           childrenFineEnough(largest, contractionHere)) {
-        for (const Vec3d& child : {split.f0, split.r[0], split.l[0], split.k0})
+        for (const Vec3d& child : {split.f0, split.r[0], split.l[0], split.vFace0})
           finishedChildren_.push_back(child);
         continue;
       }
       split.emitSides(level + 1, sink);
-      split.emitInK(level + 1, sink);
+      split.emitInVFace(level + 1, sink);
       descend(split, i, next_);
       done = false;
     }
@@ -130,10 +130,10 @@ void ExtraordinarySubdivision::run(ExtraordinaryFace& face, int level, SurfaceSi
 TriangleImages::TriangleImages(const Vec3d& at, const Vec3d& start, const Vec3d& end)
     : u((2.0 * at + start + end) / 4.0), mStart(chaikin(start, end)), mEnd(chaikin(end, start)) {}
 
-void TriangleImages::setK(VertexSplit& split) const {
-  split.k0 = u;
-  split.kRight = mirrored(u, mStart);
-  split.kLeft = mirrored(u, mEnd);
+void TriangleImages::setVFace(VertexSplit& split) const {
+  split.vFace0 = u;
+  split.vFaceRight = mirrored(u, mStart);
+  split.vFaceLeft = mirrored(u, mEnd);
 }
 
 VertexSplit BoundaryCorner::split() const {
@@ -141,7 +141,7 @@ VertexSplit BoundaryCorner::split() const {
   split.setF(quadImages(u, right, opposite, left));
   split.r = quadImages(u, right, mirrored(right, mRight), mirrored(u, mStart));
   split.l = quadImages(u, left, mirrored(left, mLeft), mirrored(u, mEnd));
-  TriangleImages(u, mStart, mEnd).setK(split);
+  TriangleImages(u, mStart, mEnd).setVFace(split);
   return split;
 }
 

@@ -66,9 +66,10 @@ class ExtraordinarySubdivision {
 struct BoundaryCorner {
   Vec3d u, mStart, mEnd, right, mRight, left, mLeft, opposite;
 
-  /// One step, with the quad as F and T, of which only the images next to u are known, as K.
+  /// One step, with the quad as F and T as the V-face: of T only the images next to u
+  /// are known.
   VertexSplit split() const;
-  /// The same corner one level down, where it is K's child.
+  /// The same corner one level down, where it is the child of the V-face.
   BoundaryCorner below(const VertexSplit& split) const;
 };
 
@@ -76,8 +77,8 @@ struct BoundaryCorner {
 struct TriangleImages {
   Vec3d u, mStart, mEnd;
   TriangleImages(const Vec3d& u, const Vec3d& mStart, const Vec3d& mEnd);
-  /// T as the K of u, with the mirror images of its child beyond the boundary.
-  void setK(VertexSplit& split) const;
+  /// T as the V-face of u, with the mirror images of its child beyond the boundary.
+  void setVFace(VertexSplit& split) const;
 };
 
 /// Subdivides u, a vertex of `level`, until it is fine enough.

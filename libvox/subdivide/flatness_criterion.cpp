@@ -80,7 +80,7 @@ class FlatnessCriterion : public Criterion {
   bool fine(const VertexFaces& faces) const override {
     const Vec3d normal = normalOf(faces.next - faces.left, faces.previous - faces.right);
     double height = faces.f.height;
-    if (faces.hasK) height = std::max(height, faces.k.height);
+    if (faces.hasVFace) height = std::max(height, faces.vFace.height);
     const auto take = [&](const Vec3d& point) {
       const Vec3d step = point - faces.at;
       height = std::max(height, (normal.isZero() ? step.norm() : std::abs(normal.dot(step))) / 2);

@@ -57,7 +57,7 @@ class LevelImages {
 std::vector<Vec3d> imageVertices(const SubdivisionLevel& level) {
   const PolygonMesh& mesh = level.mesh;
   std::vector<Vec3d> image(nextPointCount(level));
-  forParts(mesh.faceCount(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallelForRanges(mesh.faceCount(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
     LevelImages faces(level, image);
     for (Index f = static_cast<Index>(begin); f != end; ++f) faces.write(f);
   });

@@ -1,4 +1,4 @@
-// How deep an irregular vertex goes: its children, ring by ring.
+// How deep an irregular vertex goes: its children, level by level.
 
 #include "libvox/subdivide/irregular_depth.h"
 
@@ -10,9 +10,9 @@
 namespace vox {
 namespace {
 
-/// The faces around corner i of a ring.
-VertexFaces facesOf(const ExtraordinaryRings::Ring& ring, std::size_t i) {
-  const ExtraordinaryFace& face = ring.face;
+/// The faces around corner i of a level.
+VertexFaces facesOf(const ExtraordinaryLevels::Level& level, std::size_t i) {
+  const ExtraordinaryFace& face = level.face;
   const std::size_t j = face.before(i);
   const std::size_t n = face.after(i);
   VertexFaces faces{face.inner[i],
@@ -20,16 +20,16 @@ VertexFaces facesOf(const ExtraordinaryRings::Ring& ring, std::size_t i) {
                     face.inner[j],
                     face.near[i],
                     face.far[j],
-                    ring.shape,
+                    level.shape,
                     {},
                     {},
                     {}};
   faces.r = {faces.at, faces.next, face.far[i], face.near[i]};
   faces.l = {faces.at, faces.previous, face.near[j], face.far[j]};
-  faces.k = shapeOf(std::array<Vec3d, 4>{faces.at, faces.left, face.corner[i], faces.right});
+  faces.vFace = shapeOf(std::array<Vec3d, 4>{faces.at, faces.left, face.corner[i], faces.right});
   faces.hasR = face.hasEdge[i];
   faces.hasL = face.hasEdge[j];
-  faces.hasK = face.hasCorner[i];
+  faces.hasVFace = face.hasCorner[i];
   return faces;
 }
 
@@ -46,7 +46,7 @@ VertexFaces facesOf(const BoundaryCorner& corner) {
   faces.r = {faces.at, faces.next, corner.mRight, corner.mStart};
   faces.l = {faces.at, faces.previous, corner.mLeft, corner.mEnd};
   faces.f = shapeOf(std::array<Vec3d, 4>{corner.u, corner.right, corner.opposite, corner.left});
-  faces.k = shapeOf(std::array<Vec3d, 3>{corner.u, corner.mEnd, corner.mStart});
+  faces.vFace = shapeOf(std::array<Vec3d, 3>{corner.u, corner.mEnd, corner.mStart});
   return faces;
 }
 
@@ -64,14 +64,14 @@ class IrregularDepth {
     if (vertex.quadF)
       take(split.childInF(), 1);
     else
-      takeRings(*vertex.ringsOfF, vertex.placeInF);
-    if (!split.hasK) return depth_;
+      takeLevels(*vertex.levelsOfF, vertex.placeInF);
+    if (!split.hasVFace) return depth_;
     if (vertex.corner)
       takeCorner(*vertex.corner);
-    else if (vertex.quadK)
-      take(split.childInK(), 1);
+    else if (vertex.quadVFace)
+      take(split.childInVFace(), 1);
     else
-      takeRings(*vertex.ringsOfK, vertex.placeInK);
+      takeLevels(*vertex.levelsOfVFace, vertex.placeInVFace);
     return depth_;
   }
 
@@ -84,16 +84,16 @@ class IrregularDepth {
       depth_ = most_;
   }
 
-  void takeRings(ExtraordinaryRings& rings, std::size_t place) {
+  void takeLevels(ExtraordinaryLevels& levels, std::size_t place) {
     for (int l = 0; depth_ < most_; ++l) {
-      if (depth_ <= l + 1 && criterion_.fine(facesOf(rings.ring(l), place))) {
+      if (depth_ <= l + 1 && criterion_.fine(facesOf(levels.level(l), place))) {
         depth_ = l + 1;
         return;
       }
-      const VertexSplit split = rings.split(l, place);
+      const VertexSplit split = levels.split(l, place);
       if (split.hasR) take(split.childInR(), l + 2);
       if (split.hasL) take(split.childInL(), l + 2);
-      if (split.hasK) take(split.childInK(), l + 2);
+      if (split.hasVFace) take(split.childInVFace(), l + 2);
     }
   }
 

@@ -6,9 +6,9 @@
 namespace vox {
 
 /// Levels at which all that becomes of an irregular vertex keeps a criterion; at most `most`.
-/// Around an extraordinary face: the regular vertices of its rings, and where the rings end its own
-/// surroundings.
-/// @throws LimitError  as ExtraordinaryRings
+/// Around an extraordinary face: the regular vertices of its levels, and where the levels end its
+/// own surroundings.
+/// @throws LimitError  as ExtraordinaryLevels
 int irregularDepth(const Criterion& criterion, const LevelOneVertex& vertex,
                    const VertexFaces& faces, int most);
 

@@ -13,26 +13,26 @@ namespace vox {
 LocalImages::LocalImages(const SubdivisionLevel& base)
     : base_(base),
       firstSlot_(base.mesh.faceCount(), kNone),
-      starAt_(base.mesh.pointCount(), kNone) {}
+      vFaceAt_(base.mesh.pointCount(), kNone) {}
 
 void LocalImages::set(std::span<const Index> faces) {
   for (const Index f : known_) firstSlot_[f] = kNone;
   for (const Index f : faces_)
-    for (const Index v : base_.mesh.face(f)) starAt_[v] = kNone;
+    for (const Index v : base_.mesh.face(f)) vFaceAt_[v] = kNone;
   known_.clear();
   images_.clear();
-  stars_.clear();
-  starPoints_.clear();
+  vFaces_.clear();
+  vFacePoints_.clear();
   faces_ = faces;
 
   for (const Index f : faces) addFace(f);
   ownSlots_ = static_cast<Index>(images_.size());
   edges_.resize(ownSlots_);
-  starOf_.resize(ownSlots_);
-  placeInStar_.resize(ownSlots_);
+  vFaceOf_.resize(ownSlots_);
+  placeInVFace_.resize(ownSlots_);
   for (const Index f : faces)
     for (Index c = base_.mesh.faceOffsets[f]; c < base_.mesh.faceOffsets[f + 1]; ++c)
-      if (starAt_[base_.mesh.faceVertices[c]] == kNone) addStar(c);
+      if (vFaceAt_[base_.mesh.faceVertices[c]] == kNone) addVFace(c);
   Index slot = 0;
   for (const Index f : faces) {
     const Index first = slot;
@@ -86,53 +86,53 @@ bool LocalImages::findFan(Index corner) {
   return false;
 }
 
-void LocalImages::addStar(Index corner) {
-  Star star;
-  star.closed = findFan(corner);
-  star.begin = static_cast<Index>(starPoints_.size());
-  star.fan = star.size = static_cast<Index>(fan_.size());
-  const auto number = static_cast<Index>(stars_.size());
-  for (Index place = 0; place < star.fan; ++place) {
+void LocalImages::addVFace(Index corner) {
+  VFace vFace;
+  vFace.closed = findFan(corner);
+  vFace.begin = static_cast<Index>(vFacePoints_.size());
+  vFace.fan = vFace.size = static_cast<Index>(fan_.size());
+  const auto number = static_cast<Index>(vFaces_.size());
+  for (Index place = 0; place < vFace.fan; ++place) {
     const Index c = fan_[place];
-    starPoints_.push_back(imageAt(c));
+    vFacePoints_.push_back(imageAt(c));
     const Index f = base_.adjacency.cornerFace[c];
     const Index slot = firstSlot_[f] + c - base_.mesh.faceOffsets[f];
     if (slot >= ownSlots_) continue;
-    starOf_[slot] = number;
-    placeInStar_[slot] = place;
+    vFaceOf_[slot] = number;
+    placeInVFace_[slot] = place;
   }
-  if (star.closed)
-    star.diameter = diameter(std::span(starPoints_).last(star.size));
+  if (vFace.closed)
+    vFace.diameter = diameter(std::span(vFacePoints_).last(vFace.size));
   else if (extends())
-    closeFan(star);
-  starAt_[base_.mesh.faceVertices[corner]] = number;
-  stars_.push_back(star);
+    closeFan(vFace);
+  vFaceAt_[base_.mesh.faceVertices[corner]] = number;
+  vFaces_.push_back(vFace);
 }
 
 /// Adds what lies beyond the boundary: the fan becomes half of a polygon.
-void LocalImages::closeFan(Star& star) {
+void LocalImages::closeFan(VFace& vFace) {
   const PolygonMesh& mesh = base_.mesh;
   const auto pointOf = [&](Index c) -> const Vec3d& { return mesh.points[mesh.faceVertices[c]]; };
   const Vec3d& v = pointOf(fan_.front());
-  star.mStart = chaikin(v, pointOf(nextCorner(mesh, base_.adjacency, fan_.front())));
-  star.mEnd = chaikin(v, pointOf(previousCorner(mesh, base_.adjacency, fan_.back())));
-  starPoints_.push_back(star.mStart);
-  starPoints_.push_back(star.mEnd);
-  star.diameter = diameter(std::span(starPoints_).last(star.fan + 2));
-  starPoints_.resize(starPoints_.size() - 2);
-  if (star.fan == 1) return;
+  vFace.mStart = chaikin(v, pointOf(nextCorner(mesh, base_.adjacency, fan_.front())));
+  vFace.mEnd = chaikin(v, pointOf(previousCorner(mesh, base_.adjacency, fan_.back())));
+  vFacePoints_.push_back(vFace.mStart);
+  vFacePoints_.push_back(vFace.mEnd);
+  vFace.diameter = diameter(std::span(vFacePoints_).last(vFace.fan + 2));
+  vFacePoints_.resize(vFacePoints_.size() - 2);
+  if (vFace.fan == 1) return;
 
-  star.size = 2 * star.fan;
-  const Vec3d c = middle(star.mStart, star.mEnd);
-  const Vec3d d = (star.mStart - star.mEnd) / 2.0;
-  const std::vector<StripWeight> weights = stripWeights(star.fan);
+  vFace.size = 2 * vFace.fan;
+  const Vec3d c = middle(vFace.mStart, vFace.mEnd);
+  const Vec3d d = (vFace.mStart - vFace.mEnd) / 2.0;
+  const std::vector<StripWeight> weights = stripWeights(vFace.fan);
   // Next to the boundary with the same bits as in the faces across its edges.
   const auto centre = [&](Index i) -> Vec3d {
-    if (i == 0) return star.mStart;
-    return i + 1 == star.fan ? star.mEnd : Vec3d(c + weights[i].ratio * d);
+    if (i == 0) return vFace.mStart;
+    return i + 1 == vFace.fan ? vFace.mEnd : Vec3d(c + weights[i].ratio * d);
   };
-  for (Index i = star.fan; i-- > 0;)
-    starPoints_.push_back(mirrored(starPoints_[star.begin + i], centre(i)));
+  for (Index i = vFace.fan; i-- > 0;)
+    vFacePoints_.push_back(mirrored(vFacePoints_[vFace.begin + i], centre(i)));
 }
 
 /// All faces around own vertices are known.

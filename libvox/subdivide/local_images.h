@@ -16,8 +16,8 @@ class LocalImages {
   /// The level-1 face around a vertex: its V-face, or at the boundary of an extended surface the
   /// half V-face with its mirror image: n = 2m corners for m > 1 faces, of which the first m are
   /// real.
-  struct Star {
-    Index begin = 0;  ///< of its points in starPoints
+  struct VFace {
+    Index begin = 0;  ///< of its points in vFacePoints
     Index size = 0;   ///< n; with m = 1, or without a V-face (at a free boundary), the fan itself
     Index fan = 0;    ///< m, real corners
     bool closed = false;
@@ -58,22 +58,22 @@ class LocalImages {
     return std::span(images_).subspan(firstSlot, size);
   }
   const EdgeFace& edgeFace(Index slot) const { return edges_[slot]; }
-  const Star& star(Index slot) const { return stars_[starOf_[slot]]; }
-  Index starNumber(Index slot) const { return starOf_[slot]; }
-  Index placeInStar(Index slot) const { return placeInStar_[slot]; }
+  const VFace& vFace(Index slot) const { return vFaces_[vFaceOf_[slot]]; }
+  Index vFaceNumber(Index slot) const { return vFaceOf_[slot]; }
+  Index placeInVFace(Index slot) const { return placeInVFace_[slot]; }
 
-  const std::vector<Star>& stars() const { return stars_; }
+  const std::vector<VFace>& vFaces() const { return vFaces_; }
   /// Level-1 points around the vertices, counter-clockwise; a fan starts at the boundary edge that
   /// leaves the vertex.
-  const std::vector<Vec3d>& starPoints() const { return starPoints_; }
+  const std::vector<Vec3d>& vFacePoints() const { return vFacePoints_; }
 
  private:
   Index slotOfFace(Index f);
   Vec3d imageAt(Index corner);
   void addFace(Index f);
-  void addStar(Index corner);
+  void addVFace(Index corner);
   bool findFan(Index corner);
-  void closeFan(Star& star);
+  void closeFan(VFace& vFace);
   void addEdge(Index slot, Index next, Index corner);
   void mirrorEdge(Index slot, Index next, Index corner);
 
@@ -82,13 +82,13 @@ class LocalImages {
   Index ownSlots_ = 0;
   std::vector<Index> firstSlot_;  // per face of the base, or kNone
   std::vector<Index> known_;      // faces that have slots
-  std::vector<Index> starAt_;     // per vertex of the base, or kNone
+  std::vector<Index> vFaceAt_;    // per vertex of the base, or kNone
   std::vector<Vec3d> images_;
   std::vector<EdgeFace> edges_;
-  std::vector<Index> starOf_;
-  std::vector<Index> placeInStar_;
-  std::vector<Star> stars_;
-  std::vector<Vec3d> starPoints_;
+  std::vector<Index> vFaceOf_;
+  std::vector<Index> placeInVFace_;
+  std::vector<VFace> vFaces_;
+  std::vector<Vec3d> vFacePoints_;
   std::vector<Index> fan_;
   std::vector<Vec3d> corners_;
   FaceImages faceImages_;

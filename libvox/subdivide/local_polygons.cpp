@@ -130,14 +130,14 @@ void LocalPolygons::setAcrossRFromNext(const Corner& corner, Index twin) {
     otherFar_.set(vertices_.acrossRFromNext(corner), depths_[twin]);
 }
 
-/// Of a corner of a star.
-void LocalPolygons::setInStar(Index number, Index place, Index corner) {
+/// Of a corner of a vFace.
+void LocalPolygons::setInVFace(Index number, Index place, Index corner) {
   const SubdivisionLevel& base = vertices_.images().base();
   const bool quad = base.mesh.faceSize(base.adjacency.cornerFace[corner]) == 4;
   if (row_.hasNormals)
     other_.set(vertices_.at(vertices_.cornerOf(corner)), depths_[corner], true);
   else
-    other_.set(vertices_.inStar(number, place, quad), depths_[corner]);
+    other_.set(vertices_.inVFace(number, place, quad), depths_[corner]);
 }
 
 void LocalPolygons::emitFace(const Corner& first, PolygonPieces& pieces, PolygonSink& sink) {
@@ -157,8 +157,8 @@ void LocalPolygons::emitFace(const Corner& first, PolygonPieces& pieces, Polygon
       emitEdge(c, here_, next_, pieces);
     else if (vertices_.images().extends())
       emitBoundaryEdge(c, here_, next_, pieces);
-    if (vertices_.images().placeInStar(c.slot()) == 0 && vertices_.hasK(c.slot()))
-      emitStar(c, pieces);
+    if (vertices_.images().placeInVFace(c.slot()) == 0 && vertices_.hasVFace(c.slot()))
+      emitVFace(c, pieces);
   }
   pieces.addPolygon(polygon_);
 }
@@ -272,7 +272,7 @@ void LocalPolygons::emitEdge(const Corner& c, const VertexArray& here, const Ver
   const SubdivisionLevel& base = vertices_.images().base();
   const Index twin = base.adjacency.twin[c.number];
   const Index beyond = nextCorner(base.mesh, base.adjacency, twin);
-  const bool strip = vertices_.hasK(c.slot());
+  const bool strip = vertices_.hasVFace(c.slot());
   if (!strip && twin < c.number) return;
   setAcrossR(c, beyond);
   if (strip) stitch(sideOfR(here), sideOfL(other_), pieces);
@@ -307,21 +307,21 @@ void LocalPolygons::emitBoundaryEdge(const Corner& c, const VertexArray& here,
 }
 
 /// The V-face of a fan, or the half V-face, given the fan's first corner.
-void LocalPolygons::emitStar(const Corner& c, PolygonPieces& pieces) {
+void LocalPolygons::emitVFace(const Corner& c, PolygonPieces& pieces) {
   const SubdivisionLevel& base = vertices_.images().base();
-  const Index number = vertices_.images().starNumber(c.slot());
-  const LocalImages::Star& star = vertices_.images().stars()[number];
+  const Index number = vertices_.images().vFaceNumber(c.slot());
+  const LocalImages::VFace& vFace = vertices_.images().vFaces()[number];
   row_.clear();
   PointRow atStart = row_.ofSize(0);
   Index corner = c.number;
-  for (Index place = 0; place < star.fan; ++place) {
-    setInStar(number, place, corner);
-    row_.addCornerK(other_);
-    const Vec3d& unknown = star.mEnd;
-    if (!star.closed && place == 0)
-      addPointAcrossR(other_, {star.mEnd, star.mStart, unknown}, 0, atStart);
-    if (!star.closed && place + 1 == star.fan)
-      addPointAcrossL(other_, {unknown, star.mEnd, star.mStart}, 0, row_);
+  for (Index place = 0; place < vFace.fan; ++place) {
+    setInVFace(number, place, corner);
+    row_.addCornerVFace(other_);
+    const Vec3d& unknown = vFace.mEnd;
+    if (!vFace.closed && place == 0)
+      addPointAcrossR(other_, {vFace.mEnd, vFace.mStart, unknown}, 0, atStart);
+    if (!vFace.closed && place + 1 == vFace.fan)
+      addPointAcrossL(other_, {unknown, vFace.mEnd, vFace.mStart}, 0, row_);
     corner = nextAroundVertex(base.mesh, base.adjacency, corner);
   }
   row_.add(atStart);

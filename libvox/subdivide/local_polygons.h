@@ -53,11 +53,11 @@ class LocalPolygons {
                 PolygonPieces& pieces);
   void emitBoundaryEdge(const Corner& corner, const VertexArray& here, const VertexArray& next,
                         PolygonPieces& pieces);
-  void emitStar(const Corner& corner, PolygonPieces& pieces);
+  void emitVFace(const Corner& corner, PolygonPieces& pieces);
   void setArray(const Corner& corner, VertexArray& array, bool& whole);
   void setAcrossR(const Corner& corner, Index beyond);
   void setAcrossRFromNext(const Corner& corner, Index twin);
-  void setInStar(Index number, Index place, Index corner);
+  void setInVFace(Index number, Index place, Index corner);
 
   LocalVertices vertices_;
   std::span<const VertexDepth> depths_;

@@ -10,12 +10,12 @@
 namespace vox {
 void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
   images_.set(faces);
-  const std::size_t starPoints = images_.starPoints().size();
-  starKnown_.assign(images_.stars().size(), false);
-  starDiameters_.resize(images_.stars().size());
-  starActive_.assign(starPoints, false);
-  for (auto* points : {&starImages_, &starNear_, &starFar_, &starCorner_})
-    points->resize(starPoints);
+  const std::size_t vFacePoints = images_.vFacePoints().size();
+  vFaceKnown_.assign(images_.vFaces().size(), false);
+  vFaceDiameters_.resize(images_.vFaces().size());
+  vFaceActive_.assign(vFacePoints, false);
+  for (auto* points : {&vFaceImages_, &vFaceNear_, &vFaceFar_, &vFaceCorner_})
+    points->resize(vFacePoints);
   finished_.clear();
   finishedChildren_.clear();
 
@@ -28,7 +28,7 @@ void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
   }
   if (!finished_.empty()) sink.points(finished_, 1);
   if (!finishedChildren_.empty()) sink.points(finishedChildren_, 2);
-  emitStars(sink);
+  emitVFaces(sink);
 }
 
 void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
@@ -48,7 +48,7 @@ void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
       continue;
     }
     const double contractionAround =
-        std::max(contractionHere, contraction(images_.star(at.slot()).size));
+        std::max(contractionHere, contraction(images_.vFace(at.slot()).size));
     irregular_.push_back({at, isInside(at) && childrenFineEnough(largest, contractionAround)});
   }
   if (irregular_.empty()) return;
@@ -67,14 +67,16 @@ void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
 
 /// The surroundings of a level-1 vertex in a quad whose V-face is a quad or missing.
 Patch LocalSurface::patchAt(const Corner& at) const {
-  const LocalImages::Star& star = images_.star(at.slot());
+  const LocalImages::VFace& vFace = images_.vFace(at.slot());
   const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
   const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
-  const bool hasK = star.closed || images_.extends();
+  const bool hasVFace = vFace.closed || images_.extends();
   const Vec3d& center = images_.image(at.slot());
   const Vec3d& beyond =
-      hasK ? images_.starPoints()[star.begin + (images_.placeInStar(at.slot()) ^ 2U)] : center;
-  const unsigned quadrants = (hasK ? 1U : 0U) | (left.exists ? 2U : 0U) | (right.exists ? 4U : 0U);
+      hasVFace ? images_.vFacePoints()[vFace.begin + (images_.placeInVFace(at.slot()) ^ 2U)]
+               : center;
+  const unsigned quadrants =
+      (hasVFace ? 1U : 0U) | (left.exists ? 2U : 0U) | (right.exists ? 4U : 0U);
   return {{{{beyond, left.far, left.near},
             {right.near, center, images_.image(at.previous())},
             {right.far, images_.image(at.next()), images_.image(at.opposite())}}},
@@ -83,19 +85,19 @@ Patch LocalSurface::patchAt(const Corner& at) const {
 
 bool LocalSurface::isRegular(const Corner& at) const {
   if (at.size != 4) return false;
-  const LocalImages::Star& star = images_.star(at.slot());
-  return star.size == 4 || !(star.closed || images_.extends());
+  const LocalImages::VFace& vFace = images_.vFace(at.slot());
+  return vFace.size == 4 || !(vFace.closed || images_.extends());
 }
 
 /// The largest of the faces around a level-1 vertex.
 double LocalSurface::diameterAround(const Corner& at, double faceDiameter) const {
   return std::max({faceDiameter, images_.edgeFace(at.slot()).diameter,
-                   images_.edgeFace(at.previous()).diameter, images_.star(at.slot()).diameter});
+                   images_.edgeFace(at.previous()).diameter, images_.vFace(at.slot()).diameter});
 }
 
 /// Whether no face around a level-1 vertex is at the boundary.
 bool LocalSurface::isInside(const Corner& at) const {
-  return images_.star(at.slot()).closed && images_.edgeFace(at.slot()).interior &&
+  return images_.vFace(at.slot()).closed && images_.edgeFace(at.slot()).interior &&
          images_.edgeFace(at.previous()).interior;
 }
 
@@ -113,15 +115,15 @@ void LocalSurface::finishChildren(const Corner& at) {
   const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
   const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
   const Vec3d& center = images_.image(at.slot());
-  const LocalImages::Star& star = subdividedStar(at);
+  const LocalImages::VFace& vFace = subdividedVFace(at);
   finishedChildren_.push_back(facePoints_[at.place]);
   finishedChildren_.push_back(quadImage(center, images_.image(at.next()), right.near, right.far));
   finishedChildren_.push_back(quadImage(center, images_.image(at.previous()), left.far, left.near));
-  finishedChildren_.push_back(starImages_[star.begin + images_.placeInStar(at.slot())]);
+  finishedChildren_.push_back(vFaceImages_[vFace.begin + images_.placeInVFace(at.slot())]);
 }
 
 /// One step at a level-1 vertex: emits its children that are regular or fine enough and hands the
-/// others to the face and the star that they lie in.
+/// others to the face and the V-face that they lie in.
 void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
   const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
   const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
@@ -135,10 +137,10 @@ void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
   split.l = quadImages(center, images_.image(at.previous()), left.near, left.far);
   split.hasR = right.exists;
   split.hasL = left.exists;
-  splitInStar(at, split);
+  splitInVFace(at, split);
   const ChildSizes sizes = isInside(at) ? childSizes(split) : kUnknownSizes;
 
-  const LocalImages::Star& star = images_.star(at.slot());
+  const LocalImages::VFace& vFace = images_.vFace(at.slot());
   const auto fits = [](double size) { return size <= kVertexConversionSpan; };
   if (fits(sizes.r))
     finishedChildren_.push_back(split.r[0]);
@@ -154,51 +156,51 @@ void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
     finishedChildren_.push_back(split.f0);
   else
     joinFace(at, split);
-  if (split.hasK && star.size == 4)
-    emitSmall(split.childInK(), 2, finishedChildren_, sink);
-  else if (fits(std::max(starDiameters_[images_.starNumber(at.slot())], sizes.k)))
-    finishedChildren_.push_back(split.k0);
-  else if (split.hasK && star.size > 1)
-    joinStar(at, split);
-  else if (split.hasK)
+  if (split.hasVFace && vFace.size == 4)
+    emitSmall(split.childInVFace(), 2, finishedChildren_, sink);
+  else if (fits(std::max(vFaceDiameters_[images_.vFaceNumber(at.slot())], sizes.vFace)))
+    finishedChildren_.push_back(split.vFace0);
+  else if (split.hasVFace && vFace.size > 1)
+    joinVFace(at, split);
+  else if (split.hasVFace)
     subdivideBoundaryCorner(
-        {split.k0, TriangleImages(center, star.mStart, star.mEnd).mStart,
-         TriangleImages(center, star.mStart, star.mEnd).mEnd, split.r[0],
+        {split.vFace0, TriangleImages(center, vFace.mStart, vFace.mEnd).mStart,
+         TriangleImages(center, vFace.mStart, vFace.mEnd).mEnd, split.r[0],
          (split.r[0] + split.r[3]) / 2.0, split.l[0], (split.l[0] + split.l[3]) / 2.0, split.f0},
         2, sink);
 }
 
-/// The star of a corner, once its level 2 has been computed.
-const LocalImages::Star& LocalSurface::subdividedStar(const Corner& at) {
-  const LocalImages::Star& star = images_.star(at.slot());
-  const Index number = images_.starNumber(at.slot());
-  if (!starKnown_[number]) {
-    const auto images = std::span(starImages_).subspan(star.begin, star.size);
-    faceImages_.of(std::span(images_.starPoints()).subspan(star.begin, star.size), images);
-    starDiameters_[number] = diameter(images);
-    starKnown_[number] = true;
+/// The V-face of a corner, once its level 2 has been computed.
+const LocalImages::VFace& LocalSurface::subdividedVFace(const Corner& at) {
+  const LocalImages::VFace& vFace = images_.vFace(at.slot());
+  const Index number = images_.vFaceNumber(at.slot());
+  if (!vFaceKnown_[number]) {
+    const auto images = std::span(vFaceImages_).subspan(vFace.begin, vFace.size);
+    faceImages_.of(std::span(images_.vFacePoints()).subspan(vFace.begin, vFace.size), images);
+    vFaceDiameters_[number] = diameter(images);
+    vFaceKnown_[number] = true;
   }
-  return star;
+  return vFace;
 }
 
 /// Level 2 in the V-face.
-void LocalSurface::splitInStar(const Corner& at, VertexSplit& split) {
-  split.hasK = images_.star(at.slot()).closed || images_.extends();
-  if (!split.hasK) return;
-  if (images_.star(at.slot()).size == 1) {
-    const LocalImages::Star& star = images_.star(at.slot());
-    const TriangleImages t(images_.image(at.slot()), star.mStart, star.mEnd);
-    split.k0 = t.u;
-    split.kRight = 2.0 * t.mStart - t.u;
-    split.kLeft = 2.0 * t.mEnd - t.u;
+void LocalSurface::splitInVFace(const Corner& at, VertexSplit& split) {
+  split.hasVFace = images_.vFace(at.slot()).closed || images_.extends();
+  if (!split.hasVFace) return;
+  if (images_.vFace(at.slot()).size == 1) {
+    const LocalImages::VFace& vFace = images_.vFace(at.slot());
+    const TriangleImages t(images_.image(at.slot()), vFace.mStart, vFace.mEnd);
+    split.vFace0 = t.u;
+    split.vFaceRight = 2.0 * t.mStart - t.u;
+    split.vFaceLeft = 2.0 * t.mEnd - t.u;
     return;
   }
-  const LocalImages::Star& star = subdividedStar(at);
-  const Index place = images_.placeInStar(at.slot());
-  split.k0 = starImages_[star.begin + place];
-  split.kRight = starImages_[star.before(place)];
-  split.kLeft = starImages_[star.after(place)];
-  if (star.size == 4) split.kOpposite = starImages_[star.begin + (place ^ 2U)];
+  const LocalImages::VFace& vFace = subdividedVFace(at);
+  const Index place = images_.placeInVFace(at.slot());
+  split.vFace0 = vFaceImages_[vFace.begin + place];
+  split.vFaceRight = vFaceImages_[vFace.before(place)];
+  split.vFaceLeft = vFaceImages_[vFace.after(place)];
+  if (vFace.size == 4) split.vFaceOpposite = vFaceImages_[vFace.begin + (place ^ 2U)];
 }
 
 /// The corner becomes an active vertex of its face, seen at level 2.
@@ -214,46 +216,46 @@ void LocalSurface::joinFace(const Corner& at, const VertexSplit& split) {
   around_.far[i] = split.r[1];
   around_.near[j] = split.l[1];
   around_.far[j] = split.l[0];
-  around_.corner[i] = split.k0;
+  around_.corner[i] = split.vFace0;
   around_.hasEdge[i] = split.hasR;
   around_.hasEdge[j] = split.hasL;
-  around_.hasCorner[i] = split.hasR && split.hasL && split.hasK;
+  around_.hasCorner[i] = split.hasR && split.hasL && split.hasVFace;
   around_.active[i] = true;
 }
 
-/// The same for its star, in which the next corner lies to the left.
-void LocalSurface::joinStar(const Corner& at, const VertexSplit& split) {
-  const LocalImages::Star& star = images_.star(at.slot());
-  const Index place = images_.placeInStar(at.slot());
-  const Index i = star.begin + place;
-  const Index j = star.before(place);
-  starNear_[i] = split.l[0];
-  starFar_[i] = split.l[3];
-  starNear_[j] = split.r[3];
-  starFar_[j] = split.r[0];
-  starCorner_[i] = split.f0;
-  starActive_[i] = true;
+/// The same for its V-face, in which the next corner lies to the left.
+void LocalSurface::joinVFace(const Corner& at, const VertexSplit& split) {
+  const LocalImages::VFace& vFace = images_.vFace(at.slot());
+  const Index place = images_.placeInVFace(at.slot());
+  const Index i = vFace.begin + place;
+  const Index j = vFace.before(place);
+  vFaceNear_[i] = split.l[0];
+  vFaceFar_[i] = split.l[3];
+  vFaceNear_[j] = split.r[3];
+  vFaceFar_[j] = split.r[0];
+  vFaceCorner_[i] = split.f0;
+  vFaceActive_[i] = true;
 }
 
-void LocalSurface::emitStars(SurfaceSink& sink) {
-  const auto part = [](const auto& all, const LocalImages::Star& star) {
-    return std::span(all).subspan(star.begin, star.size);
+void LocalSurface::emitVFaces(SurfaceSink& sink) {
+  const auto part = [](const auto& all, const LocalImages::VFace& vFace) {
+    return std::span(all).subspan(vFace.begin, vFace.size);
   };
-  for (const LocalImages::Star& star : images_.stars()) {
-    const auto active = part(starActive_, star);
+  for (const LocalImages::VFace& vFace : images_.vFaces()) {
+    const auto active = part(vFaceActive_, vFace);
     if (std::find(active.begin(), active.end(), true) == active.end()) continue;
     const auto copy = [&](const auto& from, auto& to) {
-      const auto points = part(from, star);
+      const auto points = part(from, vFace);
       to.assign(points.begin(), points.end());
     };
-    star_.reset(star.size);
-    copy(starImages_, star_.inner);
-    copy(starNear_, star_.near);
-    copy(starFar_, star_.far);
-    copy(starCorner_, star_.corner);
-    copy(starActive_, star_.active);
-    star_.real = star.fan;
-    extraordinary_.run(star_, 2, sink);
+    vFace_.reset(vFace.size);
+    copy(vFaceImages_, vFace_.inner);
+    copy(vFaceNear_, vFace_.near);
+    copy(vFaceFar_, vFace_.far);
+    copy(vFaceCorner_, vFace_.corner);
+    copy(vFaceActive_, vFace_.active);
+    vFace_.real = vFace.fan;
+    extraordinary_.run(vFace_, 2, sink);
   }
 }
 
@@ -265,11 +267,11 @@ void LocalSurface::emitBoundary(Index f, Index firstSlot, SurfaceSink& sink) {
     const Index c = mesh.faceOffsets[f] + i;
     if (images_.base().adjacency.twin[c] != kNone) continue;
     const Corner at{firstSlot, i, size};
-    const LocalImages::Star& start = images_.star(at.slot());
-    const LocalImages::Star& end = images_.star(at.next());
+    const LocalImages::VFace& start = images_.vFace(at.slot());
+    const LocalImages::VFace& end = images_.vFace(at.next());
     const double edge = images_.edgeFace(at.slot()).diameter;
-    const auto emit = [&](const CurvePoints& points, double starDiameter) {
-      const int k = curveDepth(std::max(edge, starDiameter));
+    const auto emit = [&](const CurvePoints& points, double vFaceDiameter) {
+      const int k = curveDepth(std::max(edge, vFaceDiameter));
       sink.curve(points, k, 1 + k);
     };
     emit({start.mEnd, start.mStart, end.mEnd}, start.diameter);

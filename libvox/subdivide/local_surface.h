@@ -12,7 +12,7 @@ namespace vox {
 
 /// Subdivides submeshes of a base mesh, each vertex only until it is fine enough (stop.h), and
 /// never builds a refined mesh: regular vertices leave as patches, what lies around an
-/// extraordinary face or vertex is a ring that shrinks.
+/// extraordinary face or vertex shrinks from level to level (ExtraordinaryFace).
 ///
 /// A face owns its corners, a corner the level-1 vertex it makes and all that descends from it, and
 /// at an extended boundary the boundary points of its edge. So over submeshes that cover the mesh
@@ -50,12 +50,12 @@ class LocalSurface {
   static void emitSmall(const Patch& patch, int level, std::vector<Vec3d>& finished,
                         SurfaceSink& sink);
   void finishChildren(const Corner& corner);
-  const LocalImages::Star& subdividedStar(const Corner& corner);
+  const LocalImages::VFace& subdividedVFace(const Corner& corner);
   void split(const Corner& corner, SurfaceSink& sink);
-  void splitInStar(const Corner& corner, VertexSplit& split);
+  void splitInVFace(const Corner& corner, VertexSplit& split);
   void joinFace(const Corner& corner, const VertexSplit& split);
-  void joinStar(const Corner& corner, const VertexSplit& split);
-  void emitStars(SurfaceSink& sink);
+  void joinVFace(const Corner& corner, const VertexSplit& split);
+  void emitVFaces(SurfaceSink& sink);
   void emitBoundary(Index f, Index firstSlot, SurfaceSink& sink);
 
   LocalImages images_;
@@ -68,15 +68,16 @@ class LocalSurface {
     Corner at;
     bool last;  // its children are fine enough
   };
-  std::vector<Irregular> irregular_;   // corners of one face
-  ExtraordinaryFace around_;           // that face, if it is no quad
-  bool joined_ = false;                // it has active corners
-  std::vector<Vec3d> starImages_;      // level 2 of the stars, where needed
-  std::vector<double> starDiameters_;  // of these, per star
-  std::vector<std::uint8_t> starKnown_;
-  std::vector<Vec3d> starNear_, starFar_, starCorner_;  // as ExtraordinaryFace, per point of a star
-  std::vector<std::uint8_t> starActive_;
-  ExtraordinaryFace star_;  // one of them
+  std::vector<Irregular> irregular_;    // corners of one face
+  ExtraordinaryFace around_;            // that face, if it is no quad
+  bool joined_ = false;                 // it has active corners
+  std::vector<Vec3d> vFaceImages_;      // level 2 of the V-faces, where needed
+  std::vector<double> vFaceDiameters_;  // of these, per V-face
+  std::vector<std::uint8_t> vFaceKnown_;
+  std::vector<Vec3d> vFaceNear_, vFaceFar_,
+      vFaceCorner_;  // as ExtraordinaryFace, per point of a V-face
+  std::vector<std::uint8_t> vFaceActive_;
+  ExtraordinaryFace vFace_;  // one of them
   ExtraordinarySubdivision extraordinary_;
 };
 

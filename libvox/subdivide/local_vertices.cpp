@@ -7,7 +7,7 @@
 namespace vox {
 
 void LocalVertices::set(std::span<const Index> faces) {
-  keepsRings_ = false;
+  keepsLevels_ = false;
   load(faces);
 }
 
@@ -25,9 +25,9 @@ void LocalVertices::setWithNeighbours(std::span<const Index> faces) {
   addFansFrom(faces);
   for (const Index f : loaded_) isLoaded_[f] = false;
 
-  keepsRings_ = true;
+  keepsLevels_ = true;
   load(loaded_);
-  ringsAt_.assign(images_.ownSlots(), kNone);
+  levelsAt_.assign(images_.ownSlots(), kNone);
   opened_ = 0;
 }
 
@@ -69,42 +69,42 @@ void LocalVertices::load(std::span<const Index> faces) {
     faceImages_.of(images_.imagesOfFace(slot, size), std::span(second_).subspan(slot, size));
     slot += size;
   }
-  prepareStars();
+  prepareVFaces();
 }
 
-/// Level 2 of the stars, and where they are no quads, of what the submesh knows around them.
-void LocalVertices::prepareStars() {
-  const auto& stars = images_.stars();
-  starSecond_.resize(images_.starPoints().size());
-  starShapes_.resize(stars.size());
-  starShaped_.assign(stars.size(), false);
-  if (starRings_.size() < stars.size()) starRings_.resize(stars.size());
-  std::vector<ExtraordinaryFace> faces(stars.size());
-  for (std::size_t s = 0; s < stars.size(); ++s) {
-    const LocalImages::Star& star = stars[s];
-    const auto points = std::span(starSecond_).subspan(star.begin, star.size);
-    if (sizeOfK(star) != star.size || star.size < 3) continue;
-    faceImages_.of(std::span(images_.starPoints()).subspan(star.begin, star.size), points);
-    if (star.size == 4) continue;
-    faces[s].reset(star.size);
+/// Level 2 of the V-faces, and where they are no quads, of what the submesh knows around them.
+void LocalVertices::prepareVFaces() {
+  const auto& vFaces = images_.vFaces();
+  vFaceSecond_.resize(images_.vFacePoints().size());
+  vFaceShapes_.resize(vFaces.size());
+  vFaceShaped_.assign(vFaces.size(), false);
+  if (vFaceLevels_.size() < vFaces.size()) vFaceLevels_.resize(vFaces.size());
+  std::vector<ExtraordinaryFace> faces(vFaces.size());
+  for (std::size_t s = 0; s < vFaces.size(); ++s) {
+    const LocalImages::VFace& vFace = vFaces[s];
+    const auto points = std::span(vFaceSecond_).subspan(vFace.begin, vFace.size);
+    if (sizeOfVFace(vFace) != vFace.size || vFace.size < 3) continue;
+    faceImages_.of(std::span(images_.vFacePoints()).subspan(vFace.begin, vFace.size), points);
+    if (vFace.size == 4) continue;
+    faces[s].reset(vFace.size);
     faces[s].inner.assign(points.begin(), points.end());
-    faces[s].real = star.fan;
+    faces[s].real = vFace.fan;
   }
-  surroundStars(faces);
-  for (std::size_t s = 0; s < stars.size(); ++s)
-    if (!faces[s].inner.empty()) starRings_[s].start(std::move(faces[s]));
+  surroundVFaces(faces);
+  for (std::size_t s = 0; s < vFaces.size(); ++s)
+    if (!faces[s].inner.empty()) vFaceLevels_[s].start(std::move(faces[s]));
 }
 
-/// What the faces of the submesh put around the stars that are no quads.
-void LocalVertices::surroundStars(std::vector<ExtraordinaryFace>& faces) const {
+/// What the faces of the submesh put around the V-faces that are no quads.
+void LocalVertices::surroundVFaces(std::vector<ExtraordinaryFace>& faces) const {
   Index slot = 0;
   for (const Index f : images_.faces()) {
     const Index size = images_.base().mesh.faceSize(f);
     for (Corner c{slot, 0, size, images_.base().mesh.faceOffsets[f]}; c.slot() < slot + size;
          ++c.place, ++c.number) {
-      ExtraordinaryFace& face = faces[images_.starNumber(c.slot())];
+      ExtraordinaryFace& face = faces[images_.vFaceNumber(c.slot())];
       if (face.inner.empty()) continue;
-      const Index i = images_.placeInStar(c.slot());
+      const Index i = images_.placeInVFace(c.slot());
       const std::size_t j = face.before(i);
       const auto& right = images_.edgeFace(c.slot());
       const auto& left = images_.edgeFace(c.previous().slot());
@@ -122,13 +122,13 @@ void LocalVertices::surroundStars(std::vector<ExtraordinaryFace>& faces) const {
 }
 
 Patch LocalVertices::patchAt(const Corner& c) const {
-  const LocalImages::Star& star = images_.star(c.slot());
+  const LocalImages::VFace& vFace = images_.vFace(c.slot());
   const LocalImages::EdgeFace& right = images_.edgeFace(c.slot());
   const LocalImages::EdgeFace& left = images_.edgeFace(c.previous().slot());
-  const bool k = hasK(c.slot());
+  const bool k = hasVFace(c.slot());
   const Vec3d& center = images_.image(c.slot());
   const Vec3d& beyond =
-      k ? images_.starPoints()[star.begin + (images_.placeInStar(c.slot()) ^ 2U)] : center;
+      k ? images_.vFacePoints()[vFace.begin + (images_.placeInVFace(c.slot()) ^ 2U)] : center;
   const unsigned quadrants = (k ? 1U : 0U) | (left.exists ? 2U : 0U) | (right.exists ? 4U : 0U);
   return {{{{beyond, left.far, left.near},
             {right.near, center, images_.image(c.previous().slot())},
@@ -136,16 +136,16 @@ Patch LocalVertices::patchAt(const Corner& c) const {
           static_cast<std::uint8_t>(quadrants | 8U)};
 }
 
-/// What the star says of a vertex.
-void LocalVertices::splitK(const LocalImages::Star& star, Index number, Index place,
-                           LevelOneVertex& vertex) {
+/// What the V-face says of a vertex.
+void LocalVertices::splitVFace(const LocalImages::VFace& vFace, Index number, Index place,
+                               LevelOneVertex& vertex) {
   VertexSplit& split = vertex.split;
-  split.hasK = star.closed || images_.extends();
-  if (!split.hasK) return;
-  if (star.size == 1) {
-    const TriangleImages t(vertex.at, star.mStart, star.mEnd);
-    t.setK(split);
-    vertex.corner = {split.k0,
+  split.hasVFace = vFace.closed || images_.extends();
+  if (!split.hasVFace) return;
+  if (vFace.size == 1) {
+    const TriangleImages t(vertex.at, vFace.mStart, vFace.mEnd);
+    t.setVFace(split);
+    vertex.corner = {split.vFace0,
                      t.mStart,
                      t.mEnd,
                      split.r[0],
@@ -155,40 +155,40 @@ void LocalVertices::splitK(const LocalImages::Star& star, Index number, Index pl
                      split.f0};
     return;
   }
-  split.k0 = starSecond_[star.begin + place];
-  split.kRight = starSecond_[star.before(place)];
-  split.kLeft = starSecond_[star.after(place)];
-  vertex.quadK = star.size == 4;
-  if (vertex.quadK) {
-    split.kOpposite = starSecond_[star.begin + (place ^ 2U)];
+  split.vFace0 = vFaceSecond_[vFace.begin + place];
+  split.vFaceRight = vFaceSecond_[vFace.before(place)];
+  split.vFaceLeft = vFaceSecond_[vFace.after(place)];
+  vertex.quadVFace = vFace.size == 4;
+  if (vertex.quadVFace) {
+    split.vFaceOpposite = vFaceSecond_[vFace.begin + (place ^ 2U)];
   } else {
-    vertex.ringsOfK = &starRings_[number];
-    vertex.placeInK = place;
+    vertex.levelsOfVFace = &vFaceLevels_[number];
+    vertex.placeInVFace = place;
   }
 }
 
-/// The rings of a face that is no quad.
-ExtraordinaryRings& LocalVertices::ringsOf(const Corner& at) {
-  if (!keepsRings_) {
-    if (openFace_ != at.first) openFace(at, faceRings_.front());
+/// The levels of a face that is no quad.
+ExtraordinaryLevels& LocalVertices::levelsOf(const Corner& at) {
+  if (!keepsLevels_) {
+    if (openFace_ != at.first) openFace(at, faceLevels_.front());
     openFace_ = at.first;
-    return faceRings_.front();
+    return faceLevels_.front();
   }
-  Index& number = ringsAt_[at.first];
-  if (number != kNone) return faceRings_[number];
+  Index& number = levelsAt_[at.first];
+  if (number != kNone) return faceLevels_[number];
   number = static_cast<Index>(opened_++);
-  if (faceRings_.size() < opened_) faceRings_.emplace_back();
-  openFace(at, faceRings_[number]);
-  return faceRings_[number];
+  if (faceLevels_.size() < opened_) faceLevels_.emplace_back();
+  openFace(at, faceLevels_[number]);
+  return faceLevels_[number];
 }
 
-void LocalVertices::openFace(const Corner& at, ExtraordinaryRings& rings) {
+void LocalVertices::openFace(const Corner& at, ExtraordinaryLevels& levels) {
   ExtraordinaryFace face;
   face.reset(at.size);
   Corner c{at.first, 0, at.size, at.number - at.place};
   for (Index i = 0; i < at.size; ++i, c = c.next()) {
     const LocalImages::EdgeFace& right = images_.edgeFace(c.slot());
-    const LocalImages::Star& star = images_.star(c.slot());
+    const LocalImages::VFace& vFace = images_.vFace(c.slot());
     const auto r =
         quadImages(images_.image(c.slot()), images_.image(c.next().slot()), right.far, right.near);
     face.inner[i] = second_[c.slot()];
@@ -196,20 +196,20 @@ void LocalVertices::openFace(const Corner& at, ExtraordinaryRings& rings) {
     face.far[i] = r[1];
     face.hasEdge[i] = right.exists;
     face.hasCorner[i] =
-        right.exists && images_.edgeFace(c.previous().slot()).exists && hasK(c.slot());
+        right.exists && images_.edgeFace(c.previous().slot()).exists && hasVFace(c.slot());
     if (face.hasCorner[i])
-      face.corner[i] = star.size == 1
-                           ? TriangleImages(images_.image(c.slot()), star.mStart, star.mEnd).u
-                           : starSecond_[star.begin + images_.placeInStar(c.slot())];
+      face.corner[i] = vFace.size == 1
+                           ? TriangleImages(images_.image(c.slot()), vFace.mStart, vFace.mEnd).u
+                           : vFaceSecond_[vFace.begin + images_.placeInVFace(c.slot())];
   }
-  rings.start(std::move(face));
+  levels.start(std::move(face));
 }
 
 LevelOneVertex LocalVertices::at(const Corner& c) {
   LevelOneVertex vertex;
   vertex.at = images_.image(c.slot());
-  const LocalImages::Star& star = images_.star(c.slot());
-  vertex.regular = c.size == 4 && sizeOfK(star) == 4;
+  const LocalImages::VFace& vFace = images_.vFace(c.slot());
+  vertex.regular = c.size == 4 && sizeOfVFace(vFace) == 4;
   if (vertex.regular) {
     vertex.patch = patchAt(c);
     return vertex;
@@ -224,25 +224,25 @@ LevelOneVertex LocalVertices::at(const Corner& c) {
   split.l = quadImages(vertex.at, images_.image(c.previous().slot()), left.near, left.far);
   split.hasR = right.exists;
   split.hasL = left.exists;
-  splitK(star, images_.starNumber(c.slot()), images_.placeInStar(c.slot()), vertex);
+  splitVFace(vFace, images_.vFaceNumber(c.slot()), images_.placeInVFace(c.slot()), vertex);
   vertex.quadF = c.size == 4;
   if (vertex.quadF) {
     split.fOpposite = second_[c.first + (c.place ^ 2U)];
   } else {
-    vertex.ringsOfF = &ringsOf(c);
+    vertex.levelsOfF = &levelsOf(c);
     vertex.placeInF = c.place;
   }
   return vertex;
 }
 
 LevelOneVertex LocalVertices::acrossR(const Corner& c) {
-  const LocalImages::Star& star = images_.star(c.slot());
+  const LocalImages::VFace& vFace = images_.vFace(c.slot());
   const LocalImages::EdgeFace& edge = images_.edgeFace(c.slot());
   const SubdivisionLevel& base = images_.base();
   const Index other = base.adjacency.cornerFace[base.adjacency.twin[c.number]];
-  const Index place = star.before(images_.placeInStar(c.slot())) - star.begin;
+  const Index place = vFace.before(images_.placeInVFace(c.slot())) - vFace.begin;
   LevelOneVertex vertex =
-      inStar(images_.starNumber(c.slot()), place, base.mesh.faceSize(other) == 4);
+      inVFace(images_.vFaceNumber(c.slot()), place, base.mesh.faceSize(other) == 4);
   const Vec3d& here = images_.image(c.slot());
   const Vec3d& next = images_.image(c.next().slot());
   if (vertex.regular) {
@@ -256,13 +256,13 @@ LevelOneVertex LocalVertices::acrossR(const Corner& c) {
 }
 
 LevelOneVertex LocalVertices::acrossRFromNext(const Corner& c) {
-  const LocalImages::Star& star = images_.star(c.next().slot());
+  const LocalImages::VFace& vFace = images_.vFace(c.next().slot());
   const LocalImages::EdgeFace& edge = images_.edgeFace(c.slot());
   const SubdivisionLevel& base = images_.base();
   const Index other = base.adjacency.cornerFace[base.adjacency.twin[c.number]];
-  const Index place = star.after(images_.placeInStar(c.next().slot())) - star.begin;
+  const Index place = vFace.after(images_.placeInVFace(c.next().slot())) - vFace.begin;
   LevelOneVertex vertex =
-      inStar(images_.starNumber(c.next().slot()), place, base.mesh.faceSize(other) == 4);
+      inVFace(images_.vFaceNumber(c.next().slot()), place, base.mesh.faceSize(other) == 4);
   const Vec3d& here = images_.image(c.slot());
   const Vec3d& next = images_.image(c.next().slot());
   vertex.at = edge.far;
@@ -277,35 +277,35 @@ LevelOneVertex LocalVertices::acrossRFromNext(const Corner& c) {
   return vertex;
 }
 
-LevelOneVertex LocalVertices::inStar(Index number, Index place, bool quadF) {
-  const LocalImages::Star& star = images_.stars()[number];
+LevelOneVertex LocalVertices::inVFace(Index number, Index place, bool quadF) {
+  const LocalImages::VFace& vFace = images_.vFaces()[number];
   LevelOneVertex vertex;
-  const auto& points = images_.starPoints();
-  vertex.at = points[star.begin + place];
-  vertex.regular = quadF && sizeOfK(star) == 4;
+  const auto& points = images_.vFacePoints();
+  vertex.at = points[vFace.begin + place];
+  vertex.regular = quadF && sizeOfVFace(vFace) == 4;
   if (!vertex.regular) {
-    splitK(star, number, place, vertex);
+    splitVFace(vFace, number, place, vertex);
     return vertex;
   }
   vertex.patch.points[1][1] = vertex.at;
-  if (star.size != 4) return vertex;  // at a free boundary
-  vertex.patch.points[0][0] = points[star.begin + (place ^ 2U)];
-  vertex.patch.points[0][1] = points[star.after(place)];
-  vertex.patch.points[1][0] = points[star.before(place)];
+  if (vFace.size != 4) return vertex;  // at a free boundary
+  vertex.patch.points[0][0] = points[vFace.begin + (place ^ 2U)];
+  vertex.patch.points[0][1] = points[vFace.after(place)];
+  vertex.patch.points[1][0] = points[vFace.before(place)];
   return vertex;
 }
 
-void LocalVertices::shapeStar(Index number) {
-  if (starShaped_[number]) return;
-  starShaped_[number] = true;
-  const LocalImages::Star& star = images_.stars()[number];
-  if (star.size > 1) {
-    starShapes_[number] =
-        shapeOf(std::span(images_.starPoints()).subspan(star.begin, star.size), star.fan);
+void LocalVertices::shapeVFace(Index number) {
+  if (vFaceShaped_[number]) return;
+  vFaceShaped_[number] = true;
+  const LocalImages::VFace& vFace = images_.vFaces()[number];
+  if (vFace.size > 1) {
+    vFaceShapes_[number] =
+        shapeOf(std::span(images_.vFacePoints()).subspan(vFace.begin, vFace.size), vFace.fan);
     return;
   }
-  const Vec3d& u = images_.starPoints()[star.begin];
-  starShapes_[number] = shapeOf(std::array<Vec3d, 3>{u, star.mEnd, star.mStart});
+  const Vec3d& u = images_.vFacePoints()[vFace.begin];
+  vFaceShapes_[number] = shapeOf(std::array<Vec3d, 3>{u, vFace.mEnd, vFace.mStart});
 }
 
 VertexFaces LocalVertices::facesAt(const Corner& c) {
@@ -326,24 +326,24 @@ VertexFaces LocalVertices::facesAt(const Corner& c) {
   faces.l = {faces.at, faces.previous, left.near, left.far};
   faces.hasR = right.exists;
   faces.hasL = left.exists;
-  faces.hasK = hasK(c.slot());
+  faces.hasVFace = hasVFace(c.slot());
   if (!faces.hasR) faces.right = faces.at;
   if (!faces.hasL) faces.left = faces.at;
-  if (faces.hasK) {
-    shapeStar(images_.starNumber(c.slot()));
-    faces.k = starShapes_[images_.starNumber(c.slot())];
+  if (faces.hasVFace) {
+    shapeVFace(images_.vFaceNumber(c.slot()));
+    faces.vFace = vFaceShapes_[images_.vFaceNumber(c.slot())];
   }
   return faces;
 }
 
 CurvePoints LocalVertices::curveAcrossR(const Corner& c) const {
-  const LocalImages::Star& start = images_.star(c.slot());
-  return {start.mEnd, start.mStart, images_.star(c.next().slot()).mEnd};
+  const LocalImages::VFace& start = images_.vFace(c.slot());
+  return {start.mEnd, start.mStart, images_.vFace(c.next().slot()).mEnd};
 }
 
 CurvePoints LocalVertices::curveAcrossL(const Corner& c) const {
-  const LocalImages::Star& end = images_.star(c.slot());
-  return {images_.star(c.previous().slot()).mStart, end.mEnd, end.mStart};
+  const LocalImages::VFace& end = images_.vFace(c.slot());
+  return {images_.vFace(c.previous().slot()).mStart, end.mEnd, end.mStart};
 }
 
 BoundaryCurves LocalVertices::curvesAt(const Corner& c) const {

@@ -53,12 +53,13 @@ class LocalVertices {
   /// A vertex of the submesh. What it refers to is valid until a corner of another face is asked
   /// for.
   LevelOneVertex at(const Corner& corner);
-  /// The neighbour across R, near which it is known as far as R and K go: its L and K.
+  /// The neighbour across R, near which it is known as far as R and the V-face go: its L and
+  /// V-face.
   LevelOneVertex acrossR(const Corner& corner);
   /// The neighbour across R of the vertex at the next corner, as far as R goes.
   LevelOneVertex acrossRFromNext(const Corner& corner);
-  /// A vertex of a star, as far as the star goes.
-  LevelOneVertex inStar(Index star, Index place, bool quadF);
+  /// A vertex of a V-face, as far as the V-face goes.
+  LevelOneVertex inVFace(Index vFace, Index place, bool quadF);
 
   /// What stop rules look at.
   VertexFaces facesAt(const Corner& corner);
@@ -67,7 +68,7 @@ class LocalVertices {
   CurvePoints curveAcrossR(const Corner& corner) const;
   CurvePoints curveAcrossL(const Corner& corner) const;
 
-  bool hasK(Index slot) const { return images_.star(slot).closed || images_.extends(); }
+  bool hasVFace(Index slot) const { return images_.vFace(slot).closed || images_.extends(); }
   bool isBoundary(const Corner& corner) const {
     return images_.base().adjacency.twin[corner.number] == kNone;
   }
@@ -76,29 +77,30 @@ class LocalVertices {
   void load(std::span<const Index> faces);
   void addFansFrom(std::span<const Index> faces);
   void addNeighbour(Index face);
-  void prepareStars();
-  void surroundStars(std::vector<ExtraordinaryFace>& faces) const;
-  Index sizeOfK(const LocalImages::Star& star) const {
-    return star.closed || images_.extends() ? star.size : 4;
+  void prepareVFaces();
+  void surroundVFaces(std::vector<ExtraordinaryFace>& faces) const;
+  Index sizeOfVFace(const LocalImages::VFace& vFace) const {
+    return vFace.closed || images_.extends() ? vFace.size : 4;
   }
   Patch patchAt(const Corner& corner) const;
-  void splitK(const LocalImages::Star& star, Index number, Index place, LevelOneVertex& vertex);
-  ExtraordinaryRings& ringsOf(const Corner& corner);
-  void openFace(const Corner& corner, ExtraordinaryRings& rings);
-  void shapeStar(Index number);
+  void splitVFace(const LocalImages::VFace& vFace, Index number, Index place,
+                  LevelOneVertex& vertex);
+  ExtraordinaryLevels& levelsOf(const Corner& corner);
+  void openFace(const Corner& corner, ExtraordinaryLevels& levels);
+  void shapeVFace(Index number);
 
   LocalImages images_;
   FaceImages faceImages_;
-  std::vector<Vec3d> second_;      // level 2 in the faces, per slot
-  std::vector<Vec3d> starSecond_;  // level 2 in the stars, per point
-  std::vector<ExtraordinaryRings> starRings_;
-  std::vector<FaceShape> starShapes_;
-  std::vector<std::uint8_t> starShaped_;
+  std::vector<Vec3d> second_;       // level 2 in the faces, per slot
+  std::vector<Vec3d> vFaceSecond_;  // level 2 in the V-faces, per point
+  std::vector<ExtraordinaryLevels> vFaceLevels_;
+  std::vector<FaceShape> vFaceShapes_;
+  std::vector<std::uint8_t> vFaceShaped_;
   // Of faces that are no quads: of one at a time, or with neighbours of all that were asked for.
-  std::deque<ExtraordinaryRings> faceRings_ = std::deque<ExtraordinaryRings>(1);
-  Index openFace_ = kNone;      // first slot of the face of the first of these
-  bool keepsRings_ = false;     // of all
-  std::vector<Index> ringsAt_;  // by first slot
+  std::deque<ExtraordinaryLevels> faceLevels_ = std::deque<ExtraordinaryLevels>(1);
+  Index openFace_ = kNone;       // first slot of the face of the first of these
+  bool keepsLevels_ = false;     // of all
+  std::vector<Index> levelsAt_;  // by first slot
   std::size_t opened_ = 0;
   FaceShape faceShape_;
   Index shapedFace_ = kNone;

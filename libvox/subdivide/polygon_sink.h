@@ -89,7 +89,7 @@ struct PointRow {
     normals.insert(normals.end(), row.normals.begin(), row.normals.end());
   }
   void addCornerF(const VertexArray& array) { add(array, array.sizeU() - 1, array.sizeV() - 1); }
-  void addCornerK(const VertexArray& array) { add(array, 0, 0); }
+  void addCornerVFace(const VertexArray& array) { add(array, 0, 0); }
   void addCornerR(const VertexArray& array) { add(array, array.sizeU() - 1, 0); }
   void addCornerL(const VertexArray& array) { add(array, 0, array.sizeV() - 1); }
 };

@@ -21,6 +21,12 @@ using D = hn::CappedTag<double, 4>;
 constexpr std::size_t kLanes = hn::MaxLanes(D());
 constexpr std::size_t kParts = 4 / kLanes;
 
+// Coords reads 8 bytes behind each point of a Patch or a VertexSplit. Both hold their points first,
+// and these bytes at least behind the last one.
+constexpr std::size_t kSplitPoints = 16;
+static_assert(sizeof(Patch) >= sizeof(Patch::points) + sizeof(double));
+static_assert(sizeof(VertexSplit) >= kSplitPoints * sizeof(Vec3d) + sizeof(double));
+
 /// Three coordinates and a zero, in one vector or in several.
 struct Coords {
   hn::Vec<D> parts[kParts];
@@ -28,7 +34,7 @@ struct Coords {
   Coords() {
     for (auto& part : parts) part = hn::Zero(D());
   }
-  /// Reads 8 bytes behind the point, which its patch or split has.
+  /// @param p  a point of a Patch or a VertexSplit: up to 8 bytes behind it are read
   explicit Coords(const Vec3d& p) {
     for (std::size_t i = 0; i < kParts; ++i) {
       const std::size_t first = std::min<std::size_t>(i * kLanes, 3);
@@ -103,24 +109,25 @@ ChildSizes sizes(const VertexSplit& split) {
   const Coords f0(split.f0), fNext(split.fNext), fPrevious(split.fPrevious);
   const Coords r0(split.r[0]), r1(split.r[1]), r2(split.r[2]), r3(split.r[3]);
   const Coords l0(split.l[0]), l1(split.l[1]), l2(split.l[2]), l3(split.l[3]);
-  const Coords k0(split.k0), kRight(split.kRight), kLeft(split.kLeft);
+  const Coords vFace0(split.vFace0), vFaceRight(split.vFaceRight), vFaceLeft(split.vFaceLeft);
 
   // Around the vertex, which both patches see.
-  const Coords u = max(step(r0, k0), step(f0, l0));
-  const Coords v = max(step(l0, k0), step(f0, r0));
+  const Coords u = max(step(r0, vFace0), step(f0, l0));
+  const Coords v = max(step(l0, vFace0), step(f0, r0));
   const Coords uR =
-      max(u, largestOf(step(r3, kRight), step(r2, r3), step(r1, r0), step(fNext, f0)));
+      max(u, largestOf(step(r3, vFaceRight), step(r2, r3), step(r1, r0), step(fNext, f0)));
   const Coords vR =
-      max(v, largestOf(step(k0, kRight), step(r0, r3), step(r1, r2), step(fNext, r1)));
+      max(v, largestOf(step(vFace0, vFaceRight), step(r0, r3), step(r1, r2), step(fNext, r1)));
   const Coords uL =
-      max(u, largestOf(step(k0, kLeft), step(l0, l3), step(l1, l2), step(fPrevious, l1)));
+      max(u, largestOf(step(vFace0, vFaceLeft), step(l0, l3), step(l1, l2), step(fPrevious, l1)));
   const Coords vL =
-      max(v, largestOf(step(l3, kLeft), step(l2, l3), step(l1, l0), step(fPrevious, f0)));
+      max(v, largestOf(step(l3, vFaceLeft), step(l2, l3), step(l1, l0), step(fPrevious, f0)));
 
-  const Coords middle = box(f0, r0, k0, l0);
+  const Coords middle = box(f0, r0, vFace0, l0);
   const Coords aroundF = max(middle, max(box(f0, fNext, r1, r0), box(f0, fPrevious, l1, l0)));
-  const Coords aroundK = max(middle, max(box(k0, kRight, r3, r0), box(k0, kLeft, l3, l0)));
-  return {largest(aroundF), largest(aroundK), largest(uR + vR), largest(uL + vL)};
+  const Coords aroundVFace =
+      max(middle, max(box(vFace0, vFaceRight, r3, r0), box(vFace0, vFaceLeft, l3, l0)));
+  return {largest(aroundF), largest(aroundVFace), largest(uR + vR), largest(uL + vL)};
 }
 
 }  // namespace vox::HWY_NAMESPACE

@@ -25,9 +25,9 @@ struct PatchSteps {
 /// Sizes around the children of a vertex. A child is fine enough when what is said of it is at most
 /// kVertexConversionSpan.
 struct ChildSizes {
-  double f, k;  ///< in F and K: the largest diameter of the quads around; F and K if they are no
-                ///< quads have children of their own besides
-  double r, l;  ///< in R and L: PatchSteps::sizeBelow(0, 0) of childInR and childInL
+  double f, vFace;  ///< in F and the V-face: the largest diameter of the quads around; F and the
+                    ///< V-face if they are no quads have children of their own besides
+  double r, l;      ///< in R and L: PatchSteps::sizeBelow(0, 0) of childInR and childInL
 };
 
 /// Of a vertex about which nothing is known, none of its children is fine enough.
@@ -35,7 +35,7 @@ inline constexpr double kUnknownSize = std::numeric_limits<double>::infinity();
 inline constexpr ChildSizes kUnknownSizes = {kUnknownSize, kUnknownSize, kUnknownSize,
                                              kUnknownSize};
 
-/// For a vertex that has R, L and K.
+/// For a vertex that has R, L and its V-face.
 ChildSizes childSizes(const VertexSplit& split);
 
 }  // namespace vox

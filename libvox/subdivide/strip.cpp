@@ -79,7 +79,7 @@ std::vector<Index> boundaryCorners(const Adjacency& adjacency) {
 
 void chaikinPoints(const PolygonMesh& mesh, const Adjacency& adjacency,
                    std::span<const Index> boundary, std::span<Vec3d> points) {
-  forEach(boundary.size(), kEdgesPerTask, [&](std::size_t k) {
+  parallelForEach(boundary.size(), kEdgesPerTask, [&](std::size_t k) {
     const Index c = boundary[k];
     const Vec3d& v = mesh.points[mesh.faceVertices[c]];
     const Vec3d& w = mesh.points[mesh.faceVertices[nextCorner(mesh, adjacency, c)]];

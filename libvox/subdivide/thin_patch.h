@@ -47,11 +47,11 @@ std::optional<std::array<PatchPart, 4>> cheaperChildren(const ThinPatch& thin);
 /// Calls thin(ThinPatch, level) or whole(patch, levels, level) for the parts that together are what
 /// becomes of a regular vertex of `level`: for itself, or for descendants of it.
 template <class Thin, class Whole>
-void forParts(const PatchPart& part, int level, Thin&& thin, Whole&& whole) {
+void forEachPatchPart(const PatchPart& part, int level, Thin&& thin, Whole&& whole) {
   if (!part.thin) return whole(part.patch, part.levels, level);
   const auto children = cheaperChildren(*part.thin);
   if (!children) return thin(*part.thin, level);
-  for (const PatchPart& child : *children) forParts(child, level + 1, thin, whole);
+  for (const PatchPart& child : *children) forEachPatchPart(child, level + 1, thin, whole);
 }
 
 }  // namespace vox

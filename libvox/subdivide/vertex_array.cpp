@@ -87,13 +87,13 @@ void VertexArray::set(const LevelOneVertex& vertex, VertexDepth depth, bool norm
   if (vertex.quadF)
     add(vertex.split.childInF(), half, half, k - 1);
   else
-    addInF(*vertex.ringsOfF, vertex.placeInF, half, half, k - 1);
+    addInF(*vertex.levelsOfF, vertex.placeInF, half, half, k - 1);
   if (vertex.corner)
     addInCorner(*vertex.corner, k - 1);
-  else if (vertex.quadK)
-    add(vertex.split.childInK(), 0, 0, k - 1);
+  else if (vertex.quadVFace)
+    add(vertex.split.childInVFace(), 0, 0, k - 1);
   else
-    addInK(*vertex.ringsOfK, vertex.placeInK, k - 1);
+    addInVFace(*vertex.levelsOfVFace, vertex.placeInVFace, k - 1);
 }
 
 void VertexArray::add(const Patch& patch, std::int64_t u, std::int64_t v, int k) {
@@ -107,35 +107,35 @@ void VertexArray::addPoint(const Vec3d& point, Split&& split, std::int64_t u, st
   add(normals_ ? tangentPatch(point, split()) : pointPatch(point), u, v, 0);
 }
 
-/// The blocks of a vertex of the first ring, from row u and column v on.
-void VertexArray::addInF(ExtraordinaryRings& rings, std::size_t place, std::int64_t u,
+/// The blocks of a vertex of the first level, from row u and column v on.
+void VertexArray::addInF(ExtraordinaryLevels& levels, std::size_t place, std::int64_t u,
                          std::int64_t v, int k) {
   for (int l = 0;; ++l, --k) {
     if (k == 0)
       return addPoint(
-          rings.ring(l).face.inner[place], [&] { return rings.split(l, place); }, u, v);
+          levels.level(l).face.inner[place], [&] { return levels.split(l, place); }, u, v);
     const std::int64_t half = std::int64_t{1} << (k - 1);
-    const VertexSplit split = rings.split(l, place);
+    const VertexSplit split = levels.split(l, place);
     add(split.childInR(), u + half, v, k - 1);
     add(split.childInL(), u, v + half, k - 1);
-    add(split.childInK(), u, v, k - 1);
+    add(split.childInVFace(), u, v, k - 1);
     u += half;
     v += half;
   }
 }
 
 /// The same from row and column 0 on, with everything turned round.
-void VertexArray::addInK(ExtraordinaryRings& rings, std::size_t place, int k) {
+void VertexArray::addInVFace(ExtraordinaryLevels& levels, std::size_t place, int k) {
   for (int l = 0;; ++l, --k) {
     // Turned by half a turn, tangents have the same normal.
     if (k == 0)
       return addPoint(
-          rings.ring(l).face.inner[place], [&] { return rings.split(l, place); }, 0, 0);
+          levels.level(l).face.inner[place], [&] { return levels.split(l, place); }, 0, 0);
     const std::int64_t half = std::int64_t{1} << (k - 1);
-    const VertexSplit split = rings.split(l, place);
+    const VertexSplit split = levels.split(l, place);
     add(turned(split.childInR()), 0, half, k - 1);
     add(turned(split.childInL()), half, 0, k - 1);
-    add(turned(split.childInK()), half, half, k - 1);
+    add(turned(split.childInVFace()), half, half, k - 1);
   }
 }
 

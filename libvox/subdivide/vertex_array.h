@@ -1,7 +1,7 @@
 #pragma once
 
 #include "libvox/mesh/patch.h"
-#include "libvox/subdivide/extraordinary_rings.h"
+#include "libvox/subdivide/extraordinary_levels.h"
 #include "libvox/subdivide/vertex_split.h"
 
 #include <cstdint>
@@ -32,28 +32,29 @@ struct LevelOneVertex {
 
   // Of an irregular one, level 2:
   VertexSplit split;
-  bool quadF = true;  ///< split.fOpposite is known
-  bool quadK = true;  ///< split.kOpposite is known
+  bool quadF = true;      ///< split.fOpposite is known
+  bool quadVFace = true;  ///< split.vFaceOpposite is known
   // Where they are no quads:
-  ExtraordinaryRings* ringsOfF = nullptr;
+  ExtraordinaryLevels* levelsOfF = nullptr;
   std::size_t placeInF = 0;
-  ExtraordinaryRings* ringsOfK = nullptr;  ///< its corners run round the other way: R is behind L
-  std::size_t placeInK = 0;
-  std::optional<BoundaryCorner> corner;  ///< in place of K, where the vertex has one face
+  ExtraordinaryLevels* levelsOfVFace =
+      nullptr;  ///< its corners run round the other way: R is behind L
+  std::size_t placeInVFace = 0;
+  std::optional<BoundaryCorner> corner;  ///< in place of the V-face, where the vertex has one face
 
   /// Whether its descendants are an array with faces between them: else they are rows at most.
   bool whole() const {
-    return regular ? patch.quadrants == kAllQuadrants : split.hasR && split.hasL && split.hasK;
+    return regular ? patch.quadrants == kAllQuadrants : split.hasR && split.hasL && split.hasVFace;
   }
 };
 
 /// The descendants of a level-1 vertex: whatever the valences, an array of 2^u x 2^v vertices with
-/// quads between them. F lies at its end where u and v are largest, K at the other, R where u is
-/// largest and v smallest, L opposite R (vertex_split.h).
+/// quads between them. F lies at its end where u and v are largest, the V-face at the other, R
+/// where u is largest and v smallest, L opposite R (vertex_split.h).
 ///
 /// A regular vertex is one block in closed form. An irregular one is 2 x 2 blocks for its children
-/// in R, L, F and K, of which those in F and K go on in the same way, ring by ring. All points are
-/// evaluated in one way, so that they have the same bits for whoever asks.
+/// in R, L, F and the V-face, of which those in F and the V-face go on in the same way, level by
+/// level. All points are evaluated in one way, so that they have the same bits for whoever asks.
 class VertexArray {
  public:
   /// Part of the array: first row and column, logarithms of the sizes. Where the vertex of a block
@@ -111,7 +112,7 @@ class VertexArray {
   void normalsAcrossL(std::int64_t first, std::span<Vec3d> normals) const;
 
   Vec3d cornerF() const { return at(sizeU() - 1, sizeV() - 1); }
-  Vec3d cornerK() const { return at(0, 0); }
+  Vec3d cornerVFace() const { return at(0, 0); }
   Vec3d cornerR() const { return at(sizeU() - 1, 0); }
   Vec3d cornerL() const { return at(0, sizeV() - 1); }
 
@@ -119,8 +120,9 @@ class VertexArray {
   void add(const Patch& patch, std::int64_t u, std::int64_t v, int k);
   template <class Split>
   void addPoint(const Vec3d& point, Split&& split, std::int64_t u, std::int64_t v);
-  void addInF(ExtraordinaryRings& rings, std::size_t place, std::int64_t u, std::int64_t v, int k);
-  void addInK(ExtraordinaryRings& rings, std::size_t place, int k);
+  void addInF(ExtraordinaryLevels& levels, std::size_t place, std::int64_t u, std::int64_t v,
+              int k);
+  void addInVFace(ExtraordinaryLevels& levels, std::size_t place, int k);
   void addInCorner(BoundaryCorner corner, int k);
 
   VertexDepth depth_;

@@ -27,7 +27,7 @@ void emitThin(const ThinPatch& thin, int level, SurfaceSink& sink) {
 }  // namespace
 
 void emitRegular(const Patch& patch, int level, SurfaceSink& sink) {
-  forParts(
+  forEachPatchPart(
       PatchPart(patch), level,
       [&](const ThinPatch& thin, int levelOfPart) { emitThin(thin, levelOfPart, sink); },
       [&](const Patch& part, int levels, int levelOfPart) {
@@ -39,25 +39,25 @@ void emitRegular(const Patch& patch, int level, SurfaceSink& sink) {
 }
 
 Patch VertexSplit::childInR() const {
-  const bool ring = hasR && hasL && hasK;  // the vertex has a V-face
-  return {{{{kRight, k0, l[0]}, {r[3], r[0], f0}, {r[2], r[1], fNext}}},
-          quadrants(hasK, ring, true, true)};
+  const bool interior = hasR && hasL && hasVFace;  // the vertex has a V-face
+  return {{{{vFaceRight, vFace0, l[0]}, {r[3], r[0], f0}, {r[2], r[1], fNext}}},
+          quadrants(hasVFace, interior, true, true)};
 }
 
 Patch VertexSplit::childInL() const {
-  const bool ring = hasR && hasL && hasK;
-  return {{{{kLeft, l[3], l[2]}, {k0, l[0], l[1]}, {r[0], f0, fPrevious}}},
-          quadrants(hasK, true, ring, true)};
+  const bool interior = hasR && hasL && hasVFace;
+  return {{{{vFaceLeft, l[3], l[2]}, {vFace0, l[0], l[1]}, {r[0], f0, fPrevious}}},
+          quadrants(hasVFace, true, interior, true)};
 }
 
 Patch VertexSplit::childInF() const {
-  const bool ring = hasR && hasL && hasK;
-  return {{{{k0, l[0], l[1]}, {r[0], f0, fPrevious}, {r[1], fNext, fOpposite}}},
-          quadrants(ring, hasL, hasR, true)};
+  const bool interior = hasR && hasL && hasVFace;
+  return {{{{vFace0, l[0], l[1]}, {r[0], f0, fPrevious}, {r[1], fNext, fOpposite}}},
+          quadrants(interior, hasL, hasR, true)};
 }
 
-Patch VertexSplit::childInK() const {
-  return {{{{kOpposite, kLeft, l[3]}, {kRight, k0, l[0]}, {r[3], r[0], f0}}},
+Patch VertexSplit::childInVFace() const {
+  return {{{{vFaceOpposite, vFaceLeft, l[3]}, {vFaceRight, vFace0, l[0]}, {r[3], r[0], f0}}},
           quadrants(true, hasL, hasR, hasR && hasL)};
 }
 
@@ -70,8 +70,8 @@ void VertexSplit::emitInF(int level, SurfaceSink& sink) const {
   emitRegular(childInF(), level, sink);
 }
 
-void VertexSplit::emitInK(int level, SurfaceSink& sink) const {
-  if (hasK) emitRegular(childInK(), level, sink);
+void VertexSplit::emitInVFace(int level, SurfaceSink& sink) const {
+  if (hasVFace) emitRegular(childInVFace(), level, sink);
 }
 
 }  // namespace vox

@@ -1,4 +1,4 @@
-// From black voxels to their colours.
+// From active voxels to their colours.
 
 #include "libvox/volume/color.h"
 

@@ -19,7 +19,7 @@ openvdb::Vec3SGrid::Ptr colorGrid(const openvdb::MaskGrid& mask);
 template <class ColorOf>
 void paint(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels, ColorOf&& colorOf) {
   const openvdb::tree::LeafManager<const openvdb::MaskTree> leaves(voxels);
-  forEach(leaves.leafCount(), 1, [&](std::size_t n) {
+  parallelForEach(leaves.leafCount(), 1, [&](std::size_t n) {
     const auto& from = leaves.leaf(n);
     auto* const to = color.tree().probeLeaf(from.origin());
     for (auto voxel = from.cbeginValueOn(); voxel; ++voxel)

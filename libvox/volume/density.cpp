@@ -1,4 +1,4 @@
-// From black voxels to a fog volume.
+// From active voxels to a fog volume.
 
 #include "libvox/volume/density.h"
 

@@ -1,5 +1,6 @@
-// Flood of the outside over the tree of a surface: connected sets of white voxels in leaves, empty
-// leaves' places and empty inner nodes' places are the elements, joined where their faces touch.
+// Flood of the outside over the tree of a surface: connected sets of inactive voxels in leaves,
+// empty leaves' places and empty inner nodes' places are the elements, joined where their faces
+// touch.
 
 #include "libvox/volume/fill.h"
 
@@ -27,7 +28,7 @@ using Lower = Upper::ChildNodeType;
 using Element = std::uint32_t;
 
 constexpr Element kOutside = 0;
-constexpr Element kBlack = std::numeric_limits<Element>::max();
+constexpr Element kActive = std::numeric_limits<Element>::max();
 constexpr std::size_t kLeavesPerTask = 64;
 
 /// Step across a side.
@@ -53,7 +54,7 @@ LeafWords wordsOf(const Leaf& leaf) {
 
 /// Whether a place in a node is empty.
 template <class Node>
-bool isWhite(const Node& node, openvdb::Index slot) {
+bool isInactive(const Node& node, openvdb::Index slot) {
   return !node.isChildMaskOn(slot) && !node.isValueMaskOn(slot);
 }
 
@@ -70,8 +71,8 @@ class Flood {
   /// Joins what touches.
   void run() {
     sets_ = std::make_unique<DisjointSets>(elementCount_);
-    forEach(lowers_.size(), 1, [&](std::size_t l) { joinInLower(l); });
-    forEach(uppers_.size(), 1, [&](std::size_t u) { joinInUpper(u); });
+    parallelForEach(lowers_.size(), 1, [&](std::size_t l) { joinInLower(l); });
+    parallelForEach(uppers_.size(), 1, [&](std::size_t u) { joinInUpper(u); });
     joinAroundUppers();
   }
 
@@ -97,8 +98,8 @@ class Flood {
     std::vector<Lower*> lowers;
     copy.getNodes(uppers);
     copy.getNodes(lowers);
-    forEach(lowers.size(), 1, [&](std::size_t l) { fillLower(l, *lowers[l]); });
-    forEach(uppers.size(), 1, [&](std::size_t u) {
+    parallelForEach(lowers.size(), 1, [&](std::size_t l) { fillLower(l, *lowers[l]); });
+    parallelForEach(uppers.size(), 1, [&](std::size_t u) {
       for (openvdb::Index slot = 0; slot < Upper::NUM_VALUES; ++slot)
         if (!uppers[u]->isChildMaskOn(slot) && isEnclosed(upperElement(u, slot)))
           uppers[u]->addTile(slot, true, true);
@@ -107,7 +108,7 @@ class Flood {
   }
 
  private:
-  // Elements: the outside; white regions of leaves; places in lower and upper nodes, whether or
+  // Elements: the outside; inactive regions of leaves; places in lower and upper nodes, whether or
   // not they are empty; empty neighbours of upper nodes.
   Element leafElement(Element region) const { return 1 + region; }
   Element lowerElement(std::size_t l, openvdb::Index slot) const {
@@ -116,7 +117,7 @@ class Flood {
   Element upperElement(std::size_t u, openvdb::Index slot) const {
     return static_cast<Element>(firstOfUppers_ + u * Upper::NUM_VALUES + slot);
   }
-  /// Of an element that is white.
+  /// Of an element that is inactive.
   bool isEnclosed(Element e) { return sets_->find(e) != kOutside; }
 
   void findLeaves() {
@@ -131,11 +132,11 @@ class Flood {
   void findRegions() {
     std::vector<std::vector<LeafWords>> ofTask(leaves_.size() / kLeavesPerTask + 1);
     firstRegion_.assign(leaves_.size() + 1, 0);
-    forEach(ofTask.size(), 1, [&](std::size_t task) {
+    parallelForEach(ofTask.size(), 1, [&](std::size_t task) {
       const std::size_t end = std::min(leaves_.size(), (task + 1) * kLeavesPerTask);
       for (std::size_t i = task * kLeavesPerTask; i < end; ++i) {
         const std::size_t before = ofTask[task].size();
-        appendWhiteRegions(wordsOf(*leaves_[i]), ofTask[task]);
+        appendInactiveRegions(wordsOf(*leaves_[i]), ofTask[task]);
         firstRegion_[i + 1] = static_cast<Element>(ofTask[task].size() - before);
       }
     });
@@ -150,7 +151,7 @@ class Flood {
     firstOfUppers_ = firstOfLowers_ + lowers_.size() * Lower::NUM_VALUES;
     firstOfShell_ = firstOfUppers_ + uppers_.size() * Upper::NUM_VALUES;
     elementCount_ = firstOfShell_ + shell_.size();
-    if (elementCount_ >= kBlack)
+    if (elementCount_ >= kActive)
       throw LimitError("the surface has too many leaves to fill; use larger voxels");
   }
 
@@ -171,20 +172,20 @@ class Flood {
     return static_cast<Element>(firstOfShell_ + shell_.at(origin));
   }
 
-  /// Of a place that is inside no lower node; kBlack if it is no element.
+  /// Of a place that is inside no lower node; kActive if it is no element.
   Element elementAround(const Coord& voxel) const {
     const Coord origin = voxel & ~(static_cast<int>(Upper::DIM) - 1);
     const auto upper = upperAt_.find(origin);
     if (upper == upperAt_.end()) return shellElement(origin);
     const openvdb::Index slot = Upper::coordToOffset(voxel);
-    if (uppers_[upper->second]->isValueMaskOn(slot)) return kBlack;
+    if (uppers_[upper->second]->isValueMaskOn(slot)) return kActive;
     return upperElement(upper->second, slot);
   }
 
   /// Calls visit(element, its voxels on a side) for the elements at a place of a lower node.
   template <class Visit>
   void forSide(std::size_t l, openvdb::Index slot, int side, Visit&& visit) const {
-    if (lowers_[l]->isValueMaskOn(slot)) return;  // black
+    if (lowers_[l]->isValueMaskOn(slot)) return;  // active
     if (!lowers_[l]->isChildMaskOn(slot)) return visit(lowerElement(l, slot), ~std::uint64_t{0});
     const Element leaf = leafAt(l, slot);
     for (Element r = firstRegion_[leaf]; r < firstRegion_[leaf + 1]; ++r)
@@ -228,7 +229,7 @@ class Flood {
         const auto next = lowerAt_.find(across & ~(static_cast<int>(Lower::DIM) - 1));
         if (next == lowerAt_.end()) {
           const Element around = elementAround(across);
-          if (around == kBlack) continue;
+          if (around == kActive) continue;
           forSide(l, slot, side, [&](Element e, std::uint64_t) { sets_->unite(e, around); });
         } else if (upper) {
           joinPlaces(l, slot, next->second, Lower::coordToOffset(across), axis);
@@ -240,7 +241,7 @@ class Flood {
   /// Empty places with what is around them and has no lower node: those are joined from there.
   void joinInUpper(std::size_t u) {
     for (openvdb::Index slot = 0; slot < Upper::NUM_VALUES; ++slot) {
-      if (!isWhite(*uppers_[u], slot)) continue;
+      if (!isInactive(*uppers_[u], slot)) continue;
       const Coord origin = uppers_[u]->offsetToGlobalCoord(slot);
       for (int side = 0; side < kSides; ++side) {
         const Coord across = origin + stepAcross(side, static_cast<int>(Lower::DIM));
@@ -306,12 +307,12 @@ class Flood {
       visitTile(shellElement(origin), origin, static_cast<int>(Upper::DIM));
     for (std::size_t u = 0; u < uppers_.size(); ++u)
       for (openvdb::Index slot = 0; slot < Upper::NUM_VALUES; ++slot)
-        if (isWhite(*uppers_[u], slot))
+        if (isInactive(*uppers_[u], slot))
           visitTile(upperElement(u, slot), uppers_[u]->offsetToGlobalCoord(slot),
                     static_cast<int>(Lower::DIM));
     for (std::size_t l = 0; l < lowers_.size(); ++l)
       for (openvdb::Index slot = 0; slot < Lower::NUM_VALUES; ++slot)
-        if (isWhite(*lowers_[l], slot))
+        if (isInactive(*lowers_[l], slot))
           visitTile(lowerElement(l, slot), lowers_[l]->offsetToGlobalCoord(slot), Leaf::DIM);
     for (Element leaf = 0; leaf < leaves_.size(); ++leaf)
       for (Element r = firstRegion_[leaf]; r < firstRegion_[leaf + 1]; ++r) {

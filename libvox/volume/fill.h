@@ -11,11 +11,12 @@ namespace vox {
 /// Which of some enclosed regions stay empty, given a voxel deep inside each.
 using AreCavities = std::function<std::vector<bool>(std::span<const openvdb::Coord>)>;
 
-/// The voxels of a surface and those it encloses: every white voxel from which no path of white
-/// voxels, face to face, leads out. What is enclosed and free of surface is active tiles, as large
-/// as the tree has them; so memory follows the surface, not the volume or the bounding box.
+/// The voxels of a surface and those it encloses: every inactive voxel from which no path of
+/// inactive voxels, face to face, leads out. What is enclosed and free of surface is active tiles,
+/// as large as the tree has them; so memory follows the surface, not the volume or the bounding
+/// box.
 ///
-/// @param surface      black voxels, within +-2^30; no active tiles at the root
+/// @param surface      active voxels, within +-2^30; no active tiles at the root
 /// @param areCavities  asked once, unless it is empty or nothing is enclosed
 ///
 /// Parallel; the result does not depend on the number of threads.

@@ -45,13 +45,13 @@ LeafWords floodedFrom(int voxel, const LeafWords& allowed) {
 }
 
 LeafWords eroded(const LeafWords& leaf) {
-  LeafWords white{};
+  LeafWords inactive{};
   LeafWords result{};
-  for (std::size_t x = 0; x < leaf.size(); ++x) white[x] = ~leaf[x];
+  for (std::size_t x = 0; x < leaf.size(); ++x) inactive[x] = ~leaf[x];
   for (std::size_t x = 0; x < leaf.size(); ++x) {
-    std::uint64_t gone = grownInPlane(white[x]);
-    if (x > 0) gone |= white[x - 1];
-    if (x + 1 < leaf.size()) gone |= white[x + 1];
+    std::uint64_t gone = grownInPlane(inactive[x]);
+    if (x > 0) gone |= inactive[x - 1];
+    if (x + 1 < leaf.size()) gone |= inactive[x + 1];
     result[x] = ~gone;
   }
   return result;
@@ -76,12 +76,12 @@ std::uint64_t sideOf(const LeafWords& leaf, int side) {
   return bits;
 }
 
-void appendWhiteRegions(const LeafWords& black, std::vector<LeafWords>& regions) {
-  LeafWords white{};
-  for (std::size_t x = 0; x < white.size(); ++x) white[x] = ~black[x];
-  while (!isEmpty(white)) {
-    regions.push_back(floodedFrom(lowestVoxel(white), white));
-    for (std::size_t x = 0; x < white.size(); ++x) white[x] &= ~regions.back()[x];
+void appendInactiveRegions(const LeafWords& active, std::vector<LeafWords>& regions) {
+  LeafWords inactive{};
+  for (std::size_t x = 0; x < inactive.size(); ++x) inactive[x] = ~active[x];
+  while (!isEmpty(inactive)) {
+    regions.push_back(floodedFrom(lowestVoxel(inactive), inactive));
+    for (std::size_t x = 0; x < inactive.size(); ++x) inactive[x] &= ~regions.back()[x];
   }
 }
 

@@ -13,9 +13,9 @@ inline constexpr int kSides = 6;
 /// Voxels of a leaf on one of its sides, as bits of their two other coordinates.
 std::uint64_t sideOf(const LeafWords& leaf, int side);
 
-/// Cuts the voxels of a leaf that are not in `black` into sets that are connected through faces,
+/// Cuts the voxels of a leaf that are not in `active` into sets that are connected through faces,
 /// ordered by their lowest voxels. Appends them: at most 256.
-void appendWhiteRegions(const LeafWords& black, std::vector<LeafWords>& regions);
+void appendInactiveRegions(const LeafWords& active, std::vector<LeafWords>& regions);
 
 /// A voxel of a set (not empty) that is deep inside: the lowest of those that are left when the set
 /// has been eroded as often as it can, as bit number 64 x + 8 y + z. What lies outside the leaf

@@ -25,7 +25,7 @@ openvdb::Vec3s directionOf(const VoxelMeans::Sum& sum) {
   return length > 0 ? openvdb::Vec3s(v * (1 / length)) : kZero;
 }
 
-/// @param sum  of its first black voxel; the others' follow
+/// @param sum  of its first active voxel; the others' follow
 std::unique_ptr<Leaf> leafOf(const MaskPage::ChildNodeType& mask, const VoxelMeans::Sum* sum) {
   auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), mask.origin(), kZero);
   leaf->setValueMask(mask.valueMask());
@@ -50,7 +50,7 @@ openvdb::Vec3SGrid::Ptr normalGrid(const openvdb::MaskGrid& mask, const VoxelMea
   std::vector<const MaskPage*> maskPages;
   mask.tree().getNodes(maskPages);
   std::vector<std::unique_ptr<Page>> pages(maskPages.size());
-  forEach(pages.size(), 1, [&](std::size_t i) { pages[i] = pageOf(*maskPages[i], means); });
+  parallelForEach(pages.size(), 1, [&](std::size_t i) { pages[i] = pageOf(*maskPages[i], means); });
 
   auto tree = std::make_shared<openvdb::Vec3STree>(kZero);
   for (auto& page : pages) {

@@ -82,7 +82,7 @@ std::vector<int> windingNumbers(const PolygonMesh& surfaces, std::span<const Coo
                        if (sign != 0) windings[i].fetch_add(sign, std::memory_order_relaxed);
                      });
   };
-  forEach(surfaces.faceCount(), kFacesPerTask, [&](Index f) {
+  parallelForEach(surfaces.faceCount(), kFacesPerTask, [&](Index f) {
     const auto face = surfaces.face(f);
     const auto& points = surfaces.points;
     addTriangle(points[face[0]], points[face[1]], points[face[2]]);

@@ -10,15 +10,15 @@
 
 namespace vox {
 
-/// Which paths of white voxels the black voxels of a surface stop: those from face to face (6), or
-/// those through edges and corners too (26).
+/// Which paths of inactive voxels the active voxels of a surface stop: those from face to face (6),
+/// or those through edges and corners too (26).
 enum class Separation { k6, k26 };
 
 /// Triangles are scanned with their corners at the nearest points of the lattice of this spacing
 /// (unit: voxels), halves to even.
 inline constexpr double kScanLattice = 1.0 / 65536;
 
-/// Black voxels of one triangle within a block of 4 x 4 x 4: bit 16 i + 4 j + k of `voxels` stands
+/// Active voxels of one triangle within a block of 4 x 4 x 4: bit 16 i + 4 j + k of `voxels` stands
 /// for voxel (x + i, y + j, z + k). The block may lie anywhere; some bit is set.
 struct VoxelBlock {
   std::array<std::int32_t, 3> origin;
@@ -53,22 +53,23 @@ void emitTo(void* visit, std::span<const VoxelBlock> blocks) {
 
 }  // namespace detail
 
-/// Polygon voxelization: the black voxels of triangles in index space. Voxel (i, j, k) is the unit
-/// cube centred at that point. Calls visit(const VoxelBlock&); each black voxel of a triangle is in
-/// exactly one of its blocks, which come in no particular order.
+/// Polygon voxelization: the active voxels of triangles in index space. Voxel (i, j, k) is the unit
+/// cube centred at that point. Calls visit(const VoxelBlock&); each active voxel of a triangle is
+/// in exactly one of its blocks, which come in no particular order.
 ///
 /// The predicate, for the snapped triangle T (corners on the lattice) and a voxel of centre c:
-///   26: black iff T meets the closed cube of c;
-///   6:  black iff T meets one of the three closed segments of length 1 through c along the axes.
+///   26: active iff T meets the closed cube of c;
+///   6:  active iff T meets one of the three closed segments of length 1 through c along the axes.
 /// It is decided in integers, exactly, both ways: touching counts, nothing else does. T may be
 /// degenerate, a segment or a point; winding and order of the corners do not matter.
 ///
 /// Why there are no tunnels. Let S be the union of triangles that share corners: it snaps to a
 /// surface without gaps, at most half a lattice step (2^-17 voxel, per coordinate) from S.
 ///   6:  the step from a voxel to its neighbour is half a segment of each; where the surface meets
-///       it, one of the two is black. A path of white voxels, face to face, never meets it.
-///   26: the closed cubes of neighbours share a point, and no white cube meets the snapped surface;
-///       so neither does the union of the cubes of a white path.
+///       it, one of the two is active. A path of inactive voxels, face to face, never meets it.
+///   26: the closed cubes of neighbours share a point, and no inactive cube meets the snapped
+///   surface;
+///       so neither does the union of the cubes of an inactive path.
 ///
 /// Cost: O(columns + perimeter) along the axis that the triangle faces most; triangles of up to 16
 /// voxels across go block by block, several at a time, through the processor's vector unit, with

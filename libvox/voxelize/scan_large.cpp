@@ -143,7 +143,7 @@ class RowWriter {
 };
 
 /// One triangle, seen along axis w, which it faces most: within a column along w the plane rises by
-/// two voxels at most, so that a column has at most four black voxels. Rows run along u.
+/// two voxels at most, so that a column has at most four active voxels. Rows run along u.
 template <class Int>
 class TriangleScan {
  public:
@@ -176,8 +176,8 @@ class TriangleScan {
   void scanRows6(std::int32_t firstV, std::size_t count);
   void scanRow6(const Tables6& tables, std::int32_t firstU, std::int32_t firstV, std::size_t row,
                 Interval columns);
-  bool black6(const Tables6& tables, std::size_t column, std::size_t row, std::int32_t u,
-              std::int32_t w, Int height) const;
+  bool active6(const Tables6& tables, std::size_t column, std::size_t row, std::int32_t u,
+               std::int32_t w, Int height) const;
 
   /// Calls tile(columns) for the tiles along u that cover some rows.
   template <class Tile>
@@ -310,10 +310,10 @@ void TriangleScan<Int>::scanRow6(const Tables6& tables, std::int32_t firstU, std
       const auto column = static_cast<std::size_t>(u - firstU);
       const Int height = normalW_ - 1 - line.rest;
       writer.one(*block, u, w);
-      block += black6(tables, column, row, u, w, height);
+      block += active6(tables, column, row, u, w, height);
       if (!tied()) continue;
       writer.one(*block, u, w + 1);
-      block += black6(tables, column, row, u, w + 1, height + 2 * normalW_);
+      block += active6(tables, column, row, u, w + 1, height + 2 * normalW_);
     }
   };
 
@@ -338,8 +338,8 @@ void TriangleScan<Int>::scanRow6(const Tables6& tables, std::int32_t firstU, std
 /// none, the segment is in the plane, which is one to one with uv. Without branches: which of the
 /// inequalities fails is anyone's guess.
 template <class Int>
-bool TriangleScan<Int>::black6(const Tables6& tables, std::size_t column, std::size_t row,
-                               std::int32_t u, std::int32_t w, Int height) const {
+bool TriangleScan<Int>::active6(const Tables6& tables, std::size_t column, std::size_t row,
+                                std::int32_t u, std::int32_t w, Int height) const {
   const auto nearPlane = [&](Int size) {
     return (-size <= height) & (height + planeCeil_ - planeFloor_ <= size);
   };

@@ -141,9 +141,9 @@ Bits nearPlane(const Triangles& t, const Threshold& threshold) {
     for (int y = 0; y < N; ++y) {
       V at = atY;
       for (int z = 0; z < N; ++z) {
-        const auto black = hn::Le(hn::Abs(at), threshold(x, y, z));
+        const auto active = hn::Le(hn::Abs(at), threshold(x, y, z));
         const Bits bit = hn::Set(du, std::uint64_t{1} << (16 * x + 4 * y + z));
-        voxels = hn::Or(voxels, hn::IfThenElseZero(hn::RebindMask(du, black), bit));
+        voxels = hn::Or(voxels, hn::IfThenElseZero(hn::RebindMask(du, active), bit));
         at = hn::Add(at, step[2]);
       }
       atY = hn::Add(atY, step[1]);

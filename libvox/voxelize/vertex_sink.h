@@ -23,7 +23,7 @@ using LevelCounts = std::array<std::uint64_t, 128>;
 /// kTileError (tile.h). Source: paper section 5, with the criterion of DESIGN section 6.
 class VertexSink : public SurfaceSink {
  public:
-  explicit VertexSink(SurfaceGrid& grid) : cache_(grid) {}
+  explicit VertexSink(ActiveVoxels& grid) : cache_(grid) {}
 
   void points(std::span<const Vec3d> points, int level) override;
   void patch(const Patch& patch, int k, int level) override;

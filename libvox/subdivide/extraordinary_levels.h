@@ -9,9 +9,9 @@ namespace vox {
 
 /// The levels of an extraordinary face from 2 on, each made when somebody asks for it; O(n) per
 /// level. Corners whose surroundings are not known at the first level have none below.
-class ExtraordinaryRings {
+class ExtraordinaryLevels {
  public:
-  struct Ring {
+  struct Level {
     ExtraordinaryFace face;
     FaceShape shape;  ///< of its polygon
   };
@@ -21,18 +21,18 @@ class ExtraordinaryRings {
 
   /// l levels below the first; valid until start.
   /// @throws LimitError  l is beyond any range
-  const Ring& ring(int l);
+  const Level& level(int l);
 
-  /// One step at corner i of ring l.
+  /// One step at corner i of level l.
   VertexSplit split(int l, std::size_t i) {
-    const ExtraordinaryFace& next = ring(l + 1).face;
-    return ring(l).face.splitAt(next.inner, i);
+    const ExtraordinaryFace& next = level(l + 1).face;
+    return level(l).face.splitAt(next.inner, i);
   }
 
  private:
-  void addRing(ExtraordinaryFace face);
+  void addLevel(ExtraordinaryFace face);
 
-  std::deque<Ring> rings_;  // references stay valid
+  std::deque<Level> levels_;  // references stay valid
   FaceImages images_;
 };
 

@@ -1,6 +1,6 @@
 // Shared OpenVDB nodes, one lock a page.
 
-#include "libvox/grid/surface_grid.h"
+#include "libvox/grid/active_voxels.h"
 
 #include "libvox/core/error.h"
 
@@ -22,11 +22,11 @@ constexpr std::uint32_t kLeavesPerAccount = 16;
 
 }  // namespace
 
-SurfaceGrid::~SurfaceGrid() {
+ActiveVoxels::~ActiveVoxels() {
   for (auto& [origin, page] : pages_) delete page.node;
 }
 
-void SurfaceGrid::account(std::uint64_t bytes) {
+void ActiveVoxels::account(std::uint64_t bytes) {
   const std::uint64_t total = memoryBytes_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
   if (memoryLimit_ > 0 && total > memoryLimit_)
     throw LimitError(
@@ -35,7 +35,7 @@ void SurfaceGrid::account(std::uint64_t bytes) {
         "larger voxels, or raise --max-memory");
 }
 
-SurfaceGrid::Page& SurfaceGrid::pageOf(const openvdb::Coord& voxel) {
+ActiveVoxels::Page& ActiveVoxels::pageOf(const openvdb::Coord& voxel) {
   const openvdb::Coord origin = (voxel >> kPageLog2) << kPageLog2;
   const auto found = pages_.find(origin);
   if (found != pages_.end()) return found->second;
@@ -44,7 +44,7 @@ SurfaceGrid::Page& SurfaceGrid::pageOf(const openvdb::Coord& voxel) {
       .first->second;
 }
 
-void SurfaceGrid::add(std::span<PageLeaf> leaves) {
+void ActiveVoxels::add(std::span<PageLeaf> leaves) {
   while (!leaves.empty()) {
     Page& page = *leaves[0].page;
     const auto others = std::partition(leaves.begin(), leaves.end(),
@@ -57,7 +57,7 @@ void SurfaceGrid::add(std::span<PageLeaf> leaves) {
 }
 
 /// The page is locked.
-void SurfaceGrid::addToPage(Page& page, const openvdb::Coord& leafOrigin, const LeafWords& words) {
+void ActiveVoxels::addToPage(Page& page, const openvdb::Coord& leafOrigin, const LeafWords& words) {
   if (page.node == nullptr) {
     account(sizeof(PageNode) + kHeapOverhead);
     if (uppers_.insert((leafOrigin >> kUpperLog2) << kUpperLog2).second)
@@ -76,13 +76,13 @@ void SurfaceGrid::addToPage(Page& page, const openvdb::Coord& leafOrigin, const 
   page.voxels += mergeLeaf(leaf->buffer().data(), words);
 }
 
-std::uint64_t SurfaceGrid::countVoxels() const {
+std::uint64_t ActiveVoxels::countVoxels() const {
   std::uint64_t count = 0;
   for (const auto& [origin, page] : pages_) count += page.voxels;
   return count;
 }
 
-openvdb::MaskTree::Ptr SurfaceGrid::takeTree() {
+openvdb::MaskTree::Ptr ActiveVoxels::takeTree() {
   auto tree = std::make_shared<openvdb::MaskTree>();
   for (auto& [origin, page] : pages_) {
     if (page.node == nullptr) continue;

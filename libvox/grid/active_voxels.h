@@ -15,17 +15,17 @@
 
 namespace vox {
 
-/// The black voxels that all tasks find, as the OpenVDB nodes that become the grid: nothing is
+/// The active voxels that all tasks find, as the OpenVDB nodes that become the grid: nothing is
 /// copied or merged at the end. A page is an inner node of 128^3 voxels with a lock of its own;
 /// tasks OR whole leaves into it. Order does not matter, so the voxels do not depend on threads.
 /// Source: DESIGN section 8.
-class SurfaceGrid {
+class ActiveVoxels {
  public:
   /// @param memoryLimit  bytes the nodes may take, 0: no limit
-  explicit SurfaceGrid(std::uint64_t memoryLimit = 0) : memoryLimit_(memoryLimit) {}
-  ~SurfaceGrid();
-  SurfaceGrid(const SurfaceGrid&) = delete;
-  SurfaceGrid& operator=(const SurfaceGrid&) = delete;
+  explicit ActiveVoxels(std::uint64_t memoryLimit = 0) : memoryLimit_(memoryLimit) {}
+  ~ActiveVoxels();
+  ActiveVoxels(const ActiveVoxels&) = delete;
+  ActiveVoxels& operator=(const ActiveVoxels&) = delete;
 
   using PageNode = openvdb::MaskTree::RootNodeType::ChildNodeType::ChildNodeType;
 

@@ -1,6 +1,6 @@
 // The surroundings of an extraordinary face, level by level.
 
-#include "libvox/subdivide/extraordinary_rings.h"
+#include "libvox/subdivide/extraordinary_levels.h"
 
 #include <utility>
 
@@ -23,22 +23,22 @@ ExtraordinaryFace below(const ExtraordinaryFace& face, FaceImages& images) {
 
 }  // namespace
 
-void ExtraordinaryRings::start(ExtraordinaryFace face) {
-  rings_.clear();
-  addRing(std::move(face));
+void ExtraordinaryLevels::start(ExtraordinaryFace face) {
+  levels_.clear();
+  addLevel(std::move(face));
 }
 
-const ExtraordinaryRings::Ring& ExtraordinaryRings::ring(int l) {
-  while (static_cast<int>(rings_.size()) <= l) {
-    requireLevelInRange(static_cast<int>(rings_.size()));
-    addRing(below(rings_.back().face, images_));
+const ExtraordinaryLevels::Level& ExtraordinaryLevels::level(int l) {
+  while (static_cast<int>(levels_.size()) <= l) {
+    requireLevelInRange(static_cast<int>(levels_.size()));
+    addLevel(below(levels_.back().face, images_));
   }
-  return rings_[static_cast<std::size_t>(l)];
+  return levels_[static_cast<std::size_t>(l)];
 }
 
-void ExtraordinaryRings::addRing(ExtraordinaryFace face) {
+void ExtraordinaryLevels::addLevel(ExtraordinaryFace face) {
   const FaceShape shape = shapeOf(face.inner, face.real);
-  rings_.push_back({std::move(face), shape});
+  levels_.push_back({std::move(face), shape});
 }
 
 }  // namespace vox
