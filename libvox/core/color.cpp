@@ -1,4 +1,4 @@
-// Light and what files store of it.
+// From colours as files store them to linear light.
 
 #include "libvox/core/color.h"
 

@@ -2,8 +2,8 @@
 
 namespace vox {
 
-/// The share of light, 0 to 1, that a screen makes of a value, 0 to 1, as files and pictures store
-/// it. Source: IEC 61966-2-1 (sRGB).
+/// Linear light, 0 to 1, of a colour value as files store it (sRGB), 0 to 1.
+/// Source: IEC 61966-2-1.
 double linearFromScreen(double value);
 
 }  // namespace vox

@@ -1,4 +1,4 @@
-// Messages that stay on one line whatever a file name or a token holds.
+// Keeps messages on one line, even when they quote a file name or a token with line ends.
 
 #include "libvox/core/error.h"
 

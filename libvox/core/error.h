@@ -6,10 +6,10 @@
 
 namespace vox {
 
-/// `text` with its control characters, line ends among them, replaced by ?.
+/// `text` with all control characters, including line ends, replaced by '?'.
 std::string onOneLine(std::string text);
 
-/// Base of everything libvox throws on purpose. `what()` is one line that names the file, line or
+/// Base of all exceptions of libvox itself. `what()` is one line: it names the file, line or
 /// element, says what is wrong and, where it helps, what to do.
 class Error : public std::runtime_error {
  public:
@@ -19,27 +19,28 @@ class Error : public std::runtime_error {
   virtual int exitCode() const noexcept = 0;
 };
 
-/// A call or command line that asks for something impossible: a negative voxel size.
+/// An invalid argument or option, such as a negative voxel size.
 class UsageError : public Error {
  public:
   using Error::Error;
   int exitCode() const noexcept override { return 2; }
 };
 
-/// An input file or scene that cannot be read or means nothing.
+/// An input file or scene that cannot be read, or whose content is invalid.
 class InputError : public Error {
  public:
   using Error::Error;
   int exitCode() const noexcept override { return 3; }
 };
 
-/// A mesh that breaks a rule the algorithm needs: an index out of range, three faces on an edge.
+/// A mesh that breaks a precondition of an algorithm: an index out of range, three faces on an
+/// edge.
 class MeshError : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// The task is valid but does not fit: memory, coordinate range, number of elements.
+/// Valid input that exceeds a limit: memory, coordinate range, number of elements.
 class LimitError : public Error {
  public:
   using Error::Error;

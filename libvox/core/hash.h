@@ -7,7 +7,7 @@
 
 namespace vox {
 
-/// 128-bit content hash (XXH3), for naming content, not for security.
+/// 128-bit content hash (XXH3). It names content; it is no protection against forgery.
 class ContentHash {
  public:
   ContentHash();
@@ -17,7 +17,8 @@ class ContentHash {
 
   void add(std::span<const char> bytes);
 
-  /// Adds the content of a file with its length, so that files cannot run into each other.
+  /// Adds the length of a file, then its content. With the lengths, "ab" + "c" and "a" + "bc" have
+  /// different hashes.
   void addFile(std::string_view content);
 
   /// 32 lower-case hexadecimal digits.

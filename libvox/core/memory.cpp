@@ -1,4 +1,4 @@
-// How much memory there is, asked of Linux.
+// Memory that Linux still grants: /proc/meminfo, the control group, the limit of address space.
 
 #include "libvox/core/memory.h"
 
@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
-/// First number after `key` in a file, or `missing`.
+/// The first number after the word `key` in a file, or the first number of the file if `key` is
+/// empty; `missing` if there is no such number.
 std::uint64_t numberIn(const char* file, const std::string& key, std::uint64_t missing) {
   std::ifstream in(file);
   std::string word;
@@ -39,7 +40,7 @@ std::uint64_t controlGroupMemory() {
   const std::uint64_t limit = numberIn("/sys/fs/cgroup/memory.max", "", kUnlimited);
   if (limit == kUnlimited) return kUnlimited;
   const std::uint64_t used = numberIn("/sys/fs/cgroup/memory.current", "", 0);
-  const std::uint64_t cache = numberIn("/sys/fs/cgroup/memory.stat", "file", 0);  // given back
+  const std::uint64_t cache = numberIn("/sys/fs/cgroup/memory.stat", "file", 0);  // freed on demand
   return limit - std::min(limit, used - std::min(used, cache));
 }
 

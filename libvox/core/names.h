@@ -13,6 +13,7 @@ namespace vox {
 template <class Enum, std::size_t N>
 using NameTable = std::array<std::pair<Enum, std::string_view>, N>;
 
+/// Name of the value; empty if the table does not hold it.
 template <class Enum, std::size_t N>
 std::string nameIn(const NameTable<Enum, N>& table, Enum value) {
   for (const auto& [known, name] : table)
@@ -20,7 +21,7 @@ std::string nameIn(const NameTable<Enum, N>& table, Enum value) {
   return {};
 }
 
-/// Value of that name, or nothing.
+/// Value of the name; nothing if the table does not hold it.
 template <class Enum, std::size_t N>
 std::optional<Enum> namedIn(const NameTable<Enum, N>& table, std::string_view name) {
   for (const auto& [value, known] : table)
@@ -28,7 +29,7 @@ std::optional<Enum> namedIn(const NameTable<Enum, N>& table, std::string_view na
   return std::nullopt;
 }
 
-/// For messages: "surface, solid".
+/// All names in the order of the table, as messages list them: "surface, solid".
 template <class Enum, std::size_t N>
 std::string allNamesIn(const NameTable<Enum, N>& table) {
   std::string names;

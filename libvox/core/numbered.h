@@ -8,7 +8,7 @@
 
 namespace vox {
 
-/// 0, 1, ..., count - 1.
+/// The numbers 0, 1, ..., count - 1.
 inline std::vector<Index> numbered(std::size_t count) {
   std::vector<Index> numbers(count);
   std::iota(numbers.begin(), numbers.end(), Index{0});

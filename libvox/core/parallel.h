@@ -22,10 +22,11 @@
 
 namespace vox {
 
-/// Tells ThreadSanitizer what TBB guarantees: what the caller did happens before every part of a
-/// loop, and every part before what the caller does next, whether it returned or threw. (Debian's
-/// TBB is built without it, so the sanitizer does not see how a task reaches another thread.) Lives
-/// around the loop; does nothing in other builds.
+/// Tells ThreadSanitizer the order that TBB guarantees around a parallel loop: the caller's earlier
+/// work happens before every part of the loop, and every part, whether it returns or throws,
+/// happens before the caller's later work. (Debian's TBB is built without the sanitizer, which
+/// therefore does not see how a task reaches another thread.) An object lives as long as the loop.
+/// Does nothing in builds without the sanitizer.
 class LoopOrder {
  public:
   LoopOrder() { release(&begin_); }
@@ -33,7 +34,7 @@ class LoopOrder {
   LoopOrder(const LoopOrder&) = delete;
   LoopOrder& operator=(const LoopOrder&) = delete;
 
-  /// Lives around a part of the loop.
+  /// One part of the loop. An object lives as long as the part.
   class Part {
    public:
     explicit Part(LoopOrder& order) : order_(order) { acquire(&order_.begin_); }
@@ -45,16 +46,17 @@ class LoopOrder {
     LoopOrder& order_;
   };
 
-  /// Work that a part of the loop hands on to any thread, as a copy: a part of the loop itself.
+  /// Work that a part of the loop hands to TBB as a task. TBB copies the task and runs the copy on
+  /// any thread; the run is a part of the loop.
   template <class Work>
   class Task {
    public:
     Task(LoopOrder& order, Work work) : order_(&order), work_(std::move(work)) {}
     Task(const Task& task) : order_(task.order_), work_(task.work_) { release(&tasks_); }
-    ~Task() { acquire(&tasks_); }  // where it was thrown away
+    ~Task() { acquire(&tasks_); }  // destruction, too, comes after the copying
     Task& operator=(const Task&) = delete;
     void operator()() const {
-      acquire(&tasks_);  // first of all: not even the copy may be read before
+      acquire(&tasks_);  // first: even reading the copied members must come after the copying
       const Part part(*order_);
       work_();
     }
@@ -85,7 +87,8 @@ class LoopOrder {
   inline static char tasks_ = 0;
 };
 
-/// Calls body(begin, end) for parts of [0, count) of at least about `grain` elements, in parallel.
+/// Calls body(begin, end), in parallel, for ranges that cover [0, count) once. Ranges have at least
+/// grain / 2 elements (unless count is smaller), and more where fewer tasks are enough.
 template <class Body>
 void parallelForRanges(std::size_t count, std::size_t grain, Body&& body) {
   LoopOrder order;
@@ -95,7 +98,7 @@ void parallelForRanges(std::size_t count, std::size_t grain, Body&& body) {
   });
 }
 
-/// Calls body(i) for every i in [0, count), in parallel.
+/// Calls body(i), in parallel, for every i in [0, count). `grain` as in parallelForRanges.
 template <class Integer, class Body>
 void parallelForEach(Integer count, std::size_t grain, Body&& body) {
   parallelForRanges(count, grain, [&](std::size_t begin, std::size_t end) {
@@ -103,7 +106,8 @@ void parallelForEach(Integer count, std::size_t grain, Body&& body) {
   });
 }
 
-/// Largest value of body(begin, end) over parts of [0, count), at least 0, in parallel.
+/// Largest value of body(begin, end) over ranges that cover [0, count), or 0 if all are negative.
+/// Calls body in parallel, with ranges as in parallelForRanges.
 template <class Body>
 double parallelMax(std::size_t count, std::size_t grain, Body&& body) {
   LoopOrder order;
@@ -116,18 +120,19 @@ double parallelMax(std::size_t count, std::size_t grain, Body&& body) {
       [](double a, double b) { return std::max(a, b); });
 }
 
-/// Sorts a vector, in parallel, by an order that must be total.
+/// Sorts a vector in parallel. The order must be total, so that the result does not depend on
+/// threads.
 template <class Element, class Less = std::less<Element>>
 void parallelSort(std::vector<Element>& elements, Less less = {}) {
 #ifdef __SANITIZE_THREAD__
-  std::sort(elements.begin(), elements.end(), less);  // the parts of TBB's sort hide their order
+  std::sort(elements.begin(), elements.end(), less);  // LoopOrder cannot reach into TBB's sort
 #else
   tbb::parallel_sort(elements.begin(), elements.end(), less);
 #endif
 }
 
-/// Runs work on `threads` threads, or on all processors if 0, and returns its result. The arena
-/// raises the number, the control lowers it.
+/// Calls work() on `threads` threads, or on all processors if 0, and returns its result. TBB needs
+/// both settings: task_arena can raise the number of threads, global_control can lower it.
 /// @throws UsageError  threads < 0
 template <class Work>
 auto onThreads(int threads, Work&& work) {

@@ -1,4 +1,4 @@
-// Shares of stages, credited by tasks, reported now and then.
+// Progress as the sum of the work of earlier stages and of the credited part of the current one.
 
 #include "libvox/core/progress.h"
 
@@ -49,7 +49,7 @@ void Progress::finish() {
   report();
 }
 
-/// Under the lock.
+/// Calls the callback. The caller holds mutex_.
 void Progress::report() {
   if (!watched()) return;
   const double all = before_ + work_ * std::min(1.0, part_.load(std::memory_order_relaxed));

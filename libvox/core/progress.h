@@ -10,7 +10,7 @@
 
 namespace vox {
 
-/// The work was stopped because somebody asked for it.
+/// The run was stopped by Progress::cancel.
 class Cancelled : public Error {
  public:
   static constexpr int kExitCode = 130;
@@ -18,24 +18,25 @@ class Cancelled : public Error {
   int exitCode() const noexcept override { return kExitCode; }
 };
 
-/// How far a run has come, and the way to stop it.
+/// Progress of a run, and the means to cancel it.
 ///
-/// A run is a sequence of stages, each a share of the whole. One thread plans and begins them; the
-/// tasks within a stage say what they have done. Work asks check() often enough to stop within
-/// about a tenth of a second.
+/// A run is a sequence of stages, each a share of the whole. One thread plans the work and begins
+/// the stages; tasks on any thread credit parts of the current stage (done). Long work calls
+/// check() often enough to stop within about a tenth of a second after cancel().
 class Progress {
  public:
-  /// Told the fraction of all work done, 0 .. 1, never less than before, and the stage: when a kind
-  /// of stage begins for the first time, and else once per interval at most. From any thread of the
-  /// run, but from one at a time.
+  /// Receives the fraction of all work that is done, 0 .. 1 and never falling, and the name of the
+  /// stage. Called when a stage of a new name begins, when the run finishes, and otherwise at most
+  /// once per interval. The calls come from any thread of the run, but never two at a time.
   using Callback = std::function<void(double fraction, const char* stage)>;
 
+  /// @param interval  least time between two calls of the callback
   explicit Progress(Callback callback = {},
                     std::chrono::nanoseconds interval = std::chrono::milliseconds(50));
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Makes the next check() throw. From any thread, and from signal handlers.
+  /// Makes every later check() throw. Safe in any thread and in signal handlers.
   void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
   bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
   /// @throws Cancelled  cancel() was called
@@ -43,25 +44,26 @@ class Progress {
     if (cancelled()) throw Cancelled();
   }
 
-  /// Whether anybody looks: else what is only done for done() can be left out.
+  /// Whether there is a callback. Without one, work needed only for done() can be left out.
   bool watched() const { return callback_ != nullptr; }
 
-  /// Adds to the work of the run, in any unit; estimates will do.
+  /// Adds to the planned work of the run, in any unit. Estimates are good enough.
   void plan(double work);
 
-  /// Ends the stage before and begins the next, which is so much of what was planned.
-  /// @param stage  a literal, one or two words
-  /// @throws Cancelled
+  /// Ends the current stage and begins the next one.
+  /// @param stage  its name: a string literal, one or two words
+  /// @param work   its share of the planned work, in the unit of plan
+  /// @throws Cancelled  cancel() was called
   void begin(const char* stage, double work);
-  /// The same with all work that is left.
+  /// Begins the last stage: its share is all planned work that no stage has had.
   void beginLast(const char* stage);
 
-  /// Credits a part of the current stage; the parts add up to 1. Thread-safe. Costs tens of
-  /// nanoseconds, so work is credited in pieces of microseconds.
+  /// Credits a part of the current stage; the parts of a stage add up to 1. Thread-safe. A call
+  /// costs tens of nanoseconds, so a part should stand for microseconds of work or more.
   void done(double part);
 
-  /// The end of the run: reports 1.
-  /// @throws Cancelled
+  /// Ends the run: reports 1.
+  /// @throws Cancelled  cancel() was called
   void finish();
 
  private:
@@ -75,14 +77,14 @@ class Progress {
   static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers set it");
 
   std::atomic<double> part_{0};            // of the current stage
-  std::atomic<Clock::rep> nextReport_{0};  // since the epoch of the clock
-  std::mutex mutex_;                       // for what follows, and the callback
+  std::atomic<Clock::rep> nextReport_{0};  // earliest time of it, since the epoch of the clock
+  std::mutex mutex_;                       // guards the members below and the callback
   const char* stage_ = "";
   double planned_ = 0;
-  double before_ = 0;               // work of the stages before
+  double before_ = 0;               // work of all earlier stages
   double work_ = 0;                 // of the current stage
   double reported_ = 0;             // fraction
-  std::vector<const char*> known_;  // stages that have begun before
+  std::vector<const char*> known_;  // names of the stages so far
 };
 
 }  // namespace vox

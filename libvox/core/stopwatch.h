@@ -4,7 +4,7 @@
 
 namespace vox {
 
-/// Wall time since it was made.
+/// Measures wall time from its construction on.
 class Stopwatch {
  public:
   double seconds() const {
@@ -15,7 +15,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Adds the time of a scope to a total, in seconds.
+/// Adds the wall time of its scope to a total, in seconds.
 class StageTimer {
  public:
   explicit StageTimer(double& total) : total_(total) {}

@@ -12,7 +12,7 @@ using Vec3f = Eigen::Vector3f;
 /// Index of a point, face or corner. Meshes hold fewer than 2^32 - 1 of each.
 using Index = std::uint32_t;
 
-/// "No such element": the twin of a boundary corner.
+/// "No such element", such as the twin of a boundary corner.
 inline constexpr Index kNone = 0xffffffffU;
 
 }  // namespace vox

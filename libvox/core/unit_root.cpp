@@ -1,4 +1,4 @@
-// Cosines and sines that are the same bits on every processor.
+// Cosines and sines with the same bits on every processor.
 
 #include "libvox/core/unit_root.h"
 

@@ -6,17 +6,17 @@
 
 namespace vox {
 
-/// Cosine and sine of an angle. Computed through long double, so that the rounded value does not
-/// depend on which of its double-precision kernels the C library picks for the processor.
+/// Cosine and sine of an angle. They are computed in long double and then rounded, because the C
+/// library picks its double-precision code by processor, with different last bits.
 struct UnitRoot {
   double cosine;
   double sine;
 };
 
-/// At the angle 2 pi i / n.
+/// Cosine and sine of the angle 2 pi i / n.
 UnitRoot unitRoot(Index i, Index n);
 
-/// All n of them, i = 0 .. n - 1.
+/// Cosines and sines of all n angles 2 pi i / n, i = 0 .. n - 1.
 std::vector<UnitRoot> unitRoots(Index n);
 
 }  // namespace vox

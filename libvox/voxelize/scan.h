@@ -68,8 +68,7 @@ void emitTo(void* visit, std::span<const VoxelBlock> blocks) {
 ///   6:  the step from a voxel to its neighbour is half a segment of each; where the surface meets
 ///       it, one of the two is active. A path of inactive voxels, face to face, never meets it.
 ///   26: the closed cubes of neighbours share a point, and no inactive cube meets the snapped
-///   surface;
-///       so neither does the union of the cubes of an inactive path.
+///       surface; so neither does the union of the cubes of an inactive path.
 ///
 /// Cost: O(columns + perimeter) along the axis that the triangle faces most; triangles of up to 16
 /// voxels across go block by block, several at a time, through the processor's vector unit, with
