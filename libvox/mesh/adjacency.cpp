@@ -1,5 +1,5 @@
-// Twin corners by bringing the corners of an edge together; rings and loops by walking from twin to
-// twin.
+// Twin corners: the corners of all edges are sorted by edge. One-rings and boundary loops: a walk
+// from twin to twin.
 
 #include "libvox/mesh/adjacency.h"
 
@@ -22,7 +22,7 @@ std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& 
     const Index to = mesh.faceVertices[nextCorner(mesh, adjacency, c)];
     return {std::min(from, to), std::max(from, to), c};
   };
-  // Few corners share their lower vertex: they are brought together by counting, then sorted.
+  // A counting sort by the lower vertex; the few corners that share one are then sorted by edge.
   std::vector<Index> end(std::size_t{mesh.pointCount()} + 1, 0);
   for (Index c = 0; c < mesh.cornerCount(); ++c) ++end[std::size_t{edgeOf(c).low} + 1];
   std::partial_sum(end.begin(), end.end(), end.begin());

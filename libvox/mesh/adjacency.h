@@ -8,7 +8,7 @@
 
 namespace vox {
 
-/// How the corners of a mesh hang together; both arrays have one slot per corner.
+/// Neighbours of the corners of a mesh; both arrays have one slot per corner.
 struct Adjacency {
   std::vector<Index> twin;        ///< corner of the neighbouring face on the same edge, or kNone
   std::vector<Index> cornerFace;  ///< face of the corner
@@ -16,29 +16,29 @@ struct Adjacency {
 
 /// Adjacency of a mesh whose faces have at least 3 corners.
 ///
-/// Two corners are twins when they are the only two on their edge and run through it in opposite
+/// Two corners are twins if they are the only two on their edge and run through it in opposite
 /// directions. Every other edge (boundary, three and more faces, inconsistent winding, from a
-/// vertex to itself) separates its faces: its corners get kNone. The twins of any mesh therefore
-/// form an oriented manifold with boundary.
+/// vertex to itself) separates its faces: its corners get kNone. So the twins of any mesh form an
+/// oriented manifold with boundary.
 ///
 /// Cost O(C log n) with up to n corners around a vertex; result independent of thread count.
 Adjacency buildAdjacency(const PolygonMesh& mesh);
 
-/// Adjacency of faces that know no neighbours: the face of each corner, and no twins. O(C).
+/// Adjacency with the face of each corner, but without any twins. Cost O(C).
 Adjacency separateFaces(const PolygonMesh& mesh);
 
-/// One corner under the name of its undirected edge.
+/// A corner and the undirected edge that starts at it.
 struct EdgeCorner {
   Index low;     ///< smaller vertex of the edge
-  Index high;    ///< larger vertex; equal to low where a face repeats one
-  Index corner;  ///< the corner whose edge it is
+  Index high;    ///< larger vertex; equal to low if two neighbouring corners have the same vertex
+  Index corner;  ///< the corner
   auto operator<=>(const EdgeCorner&) const = default;
 };
 
 /// All corners sorted by edge, then by corner, so that the corners on one edge stand together.
 std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& adjacency);
 
-/// Calls visit(span of EdgeCorner) for each edge of a list made by cornersByEdge.
+/// Calls visit(span of EdgeCorner) for each edge of a list from cornersByEdge. Serial.
 template <class Visit>
 void forEachEdge(std::span<const EdgeCorner> corners, Visit&& visit) {
   for (std::size_t first = 0, last = 0; first < corners.size(); first = last) {
@@ -69,8 +69,8 @@ inline Index previousAroundVertex(const PolygonMesh& mesh, const Adjacency& adja
   return t == kNone ? kNone : nextCorner(mesh, adjacency, t);
 }
 
-/// The one-ring of a vertex as seen from one of its corners: the corners of the faces around the
-/// vertex that are joined to c through edges.
+/// The corners at the vertex of corner c whose faces are connected to the face of c through edges
+/// at the vertex.
 struct OneRing {
   std::vector<Index> corners;  ///< counter-clockwise; a closed ring starts at c, an open one at the
                                ///< corner whose outgoing edge is boundary

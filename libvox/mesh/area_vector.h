@@ -8,9 +8,9 @@
 
 namespace vox {
 
-/// Twice the area vector of a polygon in space (Newell): it points where the polygon is seen
-/// counter-clockwise, and is as long as twice its area seen from there. Does not depend on where
-/// the polygon lies. Of a quad it is the cross product of the diagonals.
+/// Twice the area vector of a polygon in space (Newell). It points to the side from which the
+/// polygon looks counter-clockwise; its length is twice the area of the polygon projected along it.
+/// Moving the polygon does not change it. For a quad it is the cross product of the diagonals.
 /// @param corner  corner(i) is the position of corner i of n
 template <class Corner>
 Vec3d twiceAreaVector(std::size_t n, Corner&& corner) {

@@ -1,4 +1,4 @@
-// Patches at free boundaries.
+// Patches at free boundaries: control points for missing faces.
 
 #include "libvox/mesh/patch.h"
 

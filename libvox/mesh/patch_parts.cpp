@@ -1,4 +1,4 @@
-// Patches made of a patch.
+// Patches derived from a patch: turned, halved, refined.
 
 #include "libvox/mesh/patch_parts.h"
 
@@ -7,7 +7,7 @@
 namespace vox {
 namespace {
 
-/// The four control points that one step makes of three.
+/// One refinement step of three control points.
 std::array<Vec3d, 4> refine(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return {chaikin(a, b), chaikin(b, a), chaikin(b, c), chaikin(c, b)};
 }

@@ -6,16 +6,17 @@
 
 namespace vox {
 
-// A patch looked at in another way, with the same descendants. Patches are complete.
+// Other patches with the descendants of a given patch. Precondition of all: its four faces exist.
 
-/// The patch seen from another side: u runs against what v was. It has the same vertices and the
-/// same outside; rows are what columns were.
+/// The patch turned by a quarter: the new v runs along the old u, the new u against the old v. The
+/// vertices and the outside stay the same; columns become rows.
 Patch quarterTurn(const Patch& patch);
 
-/// The two patches that have the first and the second half of the rows, one level down along u.
+/// One refinement step along u only: the two patches with the first and the second half of the
+/// rows.
 std::array<Patch, 2> halvesAlongU(const Patch& patch);
 
-/// The four patches one level below: [u][v].
+/// One refinement step along both axes: the four patches one level down, as [u][v].
 std::array<std::array<Patch, 2>, 2> childrenOf(const Patch& patch);
 
 }  // namespace vox

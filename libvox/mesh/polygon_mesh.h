@@ -16,8 +16,8 @@ struct PolygonMesh {
   std::vector<Vec3d> points;             ///< V positions (world units, or voxels once transformed)
   std::vector<Index> faceOffsets = {0};  ///< F + 1: face f has corners [offset f, offset f + 1)
   std::vector<Index> faceVertices;       ///< C: the point of each corner
-  std::vector<Vec3f> pointColors;        ///< V linear colours, 0 to 1, or none
-  std::vector<Vec3f> faceColors;         ///< F of them, or none
+  std::vector<Vec3f> pointColors;        ///< V linear colours, 0 to 1, or empty
+  std::vector<Vec3f> faceColors;         ///< F linear colours, 0 to 1, or empty
 
   Index faceCount() const { return static_cast<Index>(faceOffsets.size() - 1); }
   Index cornerCount() const { return static_cast<Index>(faceVertices.size()); }
@@ -38,7 +38,8 @@ struct PolygonMesh {
   }
 };
 
-/// Appends another mesh, without its colours. Together they must have less than 2^32 - 1 elements.
+/// Appends `part` to `all`, without colours.
+/// Precondition: together they have fewer than 2^32 - 1 points, faces and corners.
 inline void append(PolygonMesh& all, const PolygonMesh& part) {
   const Index firstPoint = all.pointCount();
   const Index firstCorner = all.cornerCount();

@@ -1,4 +1,4 @@
-// Which smoothing options prevail.
+// How smoothing options from two sources combine.
 
 #include "libvox/mesh/smoothing.h"
 

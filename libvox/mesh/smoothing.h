@@ -8,10 +8,10 @@
 
 namespace vox {
 
-/// Where the smooth surface of an open mesh ends (DESIGN section 4).
+/// How the smooth surface of an open mesh ends (DESIGN section 4).
 enum class BoundaryRule {
   kExtend,  ///< at the closed uniform quadratic B-spline of each boundary loop
-  kFree,    ///< plain Doo-Sabin: half a face inside, so the surface shrinks from its boundary
+  kFree,    ///< plain Doo-Sabin: the surface ends half a face inside the boundary of the mesh
 };
 inline constexpr NameTable<BoundaryRule, 2> kBoundaryRuleNames = {
     {{BoundaryRule::kExtend, "extend"}, {BoundaryRule::kFree, "free"}}};
@@ -24,15 +24,15 @@ inline constexpr NameTable<Interpolate, 4> kInterpolateNames = {
      {Interpolate::kBoundary, "boundary"},
      {Interpolate::kBoth, "both"}}};
 
-/// How to smooth an object, as far as somebody said.
+/// How to smooth an object. Options without a value are not set.
 struct SmoothingOptions {
   std::optional<BoundaryRule> boundary;                    ///< default: kExtend
   std::optional<Interpolate> interpolate;                  ///< default: kNothing
-  std::optional<std::vector<Index>> interpolatedVertices;  ///< interior ones, besides `interpolate`
+  std::optional<std::vector<Index>> interpolatedVertices;  ///< interior, added to `interpolate`
 };
 
-/// What `first` says, and `second` where it is silent. `interpolate` and `interpolatedVertices` are
-/// one choice: whoever makes one of them makes both.
+/// The options of `first`, completed by those of `second`. `interpolate` and `interpolatedVertices`
+/// are one choice: if `first` sets either of them, both are taken from `first`.
 SmoothingOptions overriding(const SmoothingOptions& first, const SmoothingOptions& second);
 
 }  // namespace vox

@@ -26,8 +26,8 @@ void takeLeast(std::optional<Number>& limit, Number value) {
   limit = limit ? std::min(*limit, value) : value;
 }
 
-/// Adds one part of a name to a rule.
-/// @return whether it is one
+/// Adds one part of a rule's name, such as "angle=5", to the rule.
+/// @return false if the part is not valid
 bool addPart(std::string_view part, StopRule& rule) {
   const auto equals = part.find('=');
   if (equals == std::string_view::npos) return false;
@@ -45,7 +45,7 @@ bool addPart(std::string_view part, StopRule& rule) {
   if (kind == "angle") takeLeast(alone.angle, *number);
   if (kind == "flatness") takeLeast(alone.flatness, *number);
   if (alone.untilVoxel() || !faultOf(alone).empty()) return false;
-  // The larger one is met first.
+  // Of two limits of a kind, the larger one is met first.
   const auto take = [](std::optional<double>& limit, const std::optional<double>& value2) {
     if (value2) limit = std::max(limit.value_or(0), *value2);
   };

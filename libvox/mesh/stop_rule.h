@@ -8,11 +8,13 @@
 
 namespace vox {
 
-/// More levels than any mesh has room for.
+/// Largest number of levels of a stop rule. A face has 4^30 descendants there, more than fit into
+/// any memory.
 inline constexpr int kMostLevels = 30;
 
-/// How far a surface is subdivided before it is voxelized: each vertex until it meets one of these,
-/// whichever comes first. With none of them, until the vertices stand as close as voxels.
+/// How far a surface is subdivided before it is voxelized. Each vertex is subdivided until one of
+/// the limits that are set is met. If no limit is set, it is subdivided until the vertices are so
+/// close that marking the voxel of each leaves no gap (vertex conversion, DESIGN section 6).
 struct StopRule {
   std::optional<int> levels = {};       ///< Doo-Sabin steps, 0..kMostLevels
   std::optional<double> diameter = {};  ///< L-inf diameter of the faces, voxels, > 0
@@ -23,22 +25,22 @@ struct StopRule {
   bool operator==(const StopRule&) const = default;
 };
 
-/// What is wrong with a rule, for messages; empty if nothing.
+/// Message that says what is wrong with a rule; empty if it is valid.
 std::string faultOf(const StopRule& rule);
 
-/// Name on the command line: "voxel", "levels=3", "angle=5,diameter=4".
+/// Name of the rule on the command line: "voxel", "levels=3", "angle=5,diameter=4".
 std::string stopRuleName(const StopRule& rule);
 
-/// Rule of that name, or nothing. Parts are separated by commas; of a kind given twice the first to
-/// be met counts. "voxel" beside others stands for diameter=1.
+/// Rule of the name; nothing if the name is not valid. Parts are separated by commas. If a kind is
+/// given twice, the limit that is met first counts. "voxel" beside other parts means diameter=1.
 std::optional<StopRule> stopRuleNamed(std::string_view name);
 
-/// For messages.
+/// All valid names, as a message lists them.
 std::string allStopRuleNames();
 
-/// How polygons or vertices become voxels.
+/// How a surface becomes voxels.
 enum class Voxelize {
-  kAuto,     ///< whatever is fast for what is asked for
+  kAuto,     ///< the faster of the two for the options
   kVertex,   ///< every vertex activates its voxel
   kPolygon,  ///< polygons are scan-converted
 };

@@ -1,4 +1,4 @@
-// Checks that name what they find.
+// Checks of meshes; messages name the elements that are at fault.
 
 #include "libvox/mesh/validate.h"
 
@@ -16,7 +16,7 @@ std::string str(std::size_t n) {
   return std::to_string(n);
 }
 
-/// Collects defects, spelling out only the first few of each kind.
+/// Collects defects. Only the first few of each kind get a message.
 class DefectList {
  public:
   explicit DefectList(std::size_t mostPerKind) : mostPerKind_(mostPerKind) {}
@@ -72,8 +72,8 @@ void findEdgeDefects(std::span<const EdgeCorner> edges, const Adjacency& adjacen
   });
 }
 
-/// Number of fans at each vertex: sets of its corners that edges of two faces join, whatever the
-/// winding of the faces.
+/// Number of fans at each vertex. A fan is a set of corners whose faces are connected through edges
+/// of two faces, wound consistently or not.
 std::vector<Index> countFans(const PolygonMesh& mesh, std::span<const EdgeCorner> edges,
                              const Adjacency& adjacency) {
   Forest fanOf(mesh.cornerCount());

@@ -8,13 +8,13 @@
 
 namespace vox {
 
-/// What can be wrong with a mesh whose indices are in range.
+/// Kinds of defects of a mesh whose indices are in range.
 enum class DefectKind {
   kRepeatedCorner,       ///< a face names the same vertex twice
   kNonManifoldEdge,      ///< an edge has three or more faces
   kInconsistentWinding,  ///< two faces run through their edge in the same direction
   kBowTieVertex,         ///< the faces around a vertex form more than one fan
-  kUnusedVertex,         ///< a vertex no face names
+  kUnusedVertex,         ///< no face has the vertex
 };
 
 struct Defect {
@@ -26,13 +26,13 @@ struct Defect {
 /// Short name for messages and JSON: "non-manifold edge".
 std::string defectName(DefectKind kind);
 
-/// Every defect of a mesh, by kind, then by element. At most `mostPerKind` get a message; the rest
-/// is there to be counted. Cost O(C log C).
+/// Every defect of a mesh, by kind, then by element. At most `mostPerKind` of a kind have a
+/// message; the messages of the others are empty. Cost O(C log C).
 std::vector<Defect> findDefects(const PolygonMesh& mesh, const Adjacency& adjacency,
                                 std::size_t mostPerKind = 8);
 
-/// Checks the arrays themselves: offsets rise and cover the corners, every face has 3 corners or
-/// more, every index is in range, every coordinate is finite.
+/// Checks the arrays: offsets ascend and cover the corners, every face has 3 corners or more, every
+/// index is in range, every coordinate is finite, there is one colour per point or face, or none.
 /// @throws MeshError  names the first element that breaks a rule
 void requireValidArrays(const PolygonMesh& mesh);
 

@@ -1,4 +1,4 @@
-// One walk around each vertex, held against the number of its corners.
+// Walks around each vertex and compares the corners met with all corners of the vertex.
 
 #include "libvox/mesh/vertex_kind.h"
 

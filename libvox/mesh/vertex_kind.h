@@ -7,13 +7,13 @@
 
 namespace vox {
 
-/// How the faces around a vertex hang together.
+/// Kinds of vertices, by how the faces around them are connected.
 enum class VertexKind : std::uint8_t {
-  kUnused,    ///< no face names it
-  kInterior,  ///< one closed ring of 3 faces or more: it has a V-face
-  kTwoFaces,  ///< one closed ring of 2 faces: its V-face would have two corners
+  kUnused,    ///< no face has it
+  kInterior,  ///< one closed one-ring of 3 faces or more: it has a V-face
+  kTwoFaces,  ///< one closed one-ring of 2 faces: its V-face would have two corners
   kBoundary,  ///< one open fan
-  kBowTie,    ///< several rings or fans
+  kBowTie,    ///< several one-rings or fans
 };
 
 /// Kind of each vertex. Cost O(C + V); parallel, result independent of thread count.

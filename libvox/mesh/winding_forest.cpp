@@ -1,4 +1,4 @@
-// Union by size keeps paths short without compression, so that looking changes nothing.
+// Union by size keeps paths short without path compression, so that find is const.
 
 #include "libvox/mesh/winding_forest.h"
 

@@ -7,8 +7,8 @@
 
 namespace vox {
 
-/// Sets of faces that hang together, each face knowing whether it is wound against the root of its
-/// set: union-find by size with a bit. O(log F) for each call.
+/// Disjoint sets of faces, with one bit per face: whether it is wound against the root of its set.
+/// At first each face is a set of its own. Union-find by size; each call costs O(log F).
 class WindingForest {
  public:
   explicit WindingForest(Index faceCount);
@@ -19,11 +19,13 @@ class WindingForest {
   };
   Place find(Index f) const;
 
-  /// Whether f and g are of one set, and wound otherwise there than `against` says.
+  /// Whether f and g are in one set whose bits contradict `against`.
+  /// @param against  whether f is wound against g: both run through their common edge in the same
+  ///   direction
   bool contradicts(Index f, Index g, bool against) const;
 
-  /// Joins the sets of f and g, if they are two. `against`: f and g run through their common edge
-  /// in the same direction.
+  /// Joins the sets of f and g; does nothing if they are one set.
+  /// @param against  as in contradicts
   void unite(Index f, Index g, bool against);
 
  private:
