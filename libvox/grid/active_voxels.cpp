@@ -1,4 +1,4 @@
-// Shared OpenVDB nodes, one lock a page.
+// OpenVDB nodes that all threads write to, with a lock per page.
 
 #include "libvox/grid/active_voxels.h"
 
@@ -14,10 +14,11 @@ namespace {
 using Leaf = openvdb::MaskTree::LeafNodeType;
 using Upper = openvdb::MaskTree::RootNodeType::ChildNodeType;
 
-/// What the heap needs for an object besides its size.
+/// Bytes that the heap needs for an object beyond its size.
 constexpr std::uint64_t kHeapOverhead = 16;
 
-/// Leaves of a page are accounted for by so many; a page itself counts as hundreds.
+/// New leaves of a page are added to the account in groups of this size. (A page itself takes as
+/// much memory as hundreds of leaves.)
 constexpr std::uint32_t kLeavesPerAccount = 16;
 
 }  // namespace
@@ -56,7 +57,7 @@ void ActiveVoxels::add(std::span<PageLeaf> leaves) {
   }
 }
 
-/// The page is locked.
+/// Precondition: the caller holds the lock of the page.
 void ActiveVoxels::addToPage(Page& page, const openvdb::Coord& leafOrigin, const LeafWords& words) {
   if (page.node == nullptr) {
     account(sizeof(PageNode) + kHeapOverhead);

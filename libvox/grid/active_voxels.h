@@ -15,13 +15,13 @@
 
 namespace vox {
 
-/// The active voxels that all tasks find, as the OpenVDB nodes that become the grid: nothing is
-/// copied or merged at the end. A page is an inner node of 128^3 voxels with a lock of its own;
-/// tasks OR whole leaves into it. Order does not matter, so the voxels do not depend on threads.
-/// Source: DESIGN section 8.
+/// The set of active voxels to which all tasks add. It consists of the OpenVDB nodes that become
+/// the tree of the grid, so that nothing is copied or merged at the end. A page is an inner node of
+/// 128^3 voxels with a lock of its own; tasks OR whole leaves into it. Order does not matter, so
+/// the voxels do not depend on threads. Source: DESIGN section 8.
 class ActiveVoxels {
  public:
-  /// @param memoryLimit  bytes the nodes may take, 0: no limit
+  /// @param memoryLimit  bytes that the nodes may take; 0: no limit
   explicit ActiveVoxels(std::uint64_t memoryLimit = 0) : memoryLimit_(memoryLimit) {}
   ~ActiveVoxels();
   ActiveVoxels(const ActiveVoxels&) = delete;
@@ -32,35 +32,35 @@ class ActiveVoxels {
   struct Page {
     tbb::spin_mutex lock;
     PageNode* node = nullptr;
-    std::uint32_t newLeaves = 0;  // since memory was last accounted for
-    std::uint64_t voxels = 0;     // active ones
+    std::uint32_t newLeaves = 0;  // not yet counted in memoryBytes
+    std::uint64_t voxels = 0;     // active voxels
   };
 
-  /// The page of a voxel; made when it is not there. Valid as long as the grid. Thread-safe.
-  /// @throws LimitError  the nodes would take more than the limit
+  /// The page of a voxel; made if there is none. The reference is valid until takeTree.
+  /// Thread-safe.
   Page& pageOf(const openvdb::Coord& voxel);
 
-  /// Some voxels of a leaf, given by its origin, in its page.
+  /// Some voxels of one leaf.
   struct PageLeaf {
     Page* page;
     openvdb::Coord origin;
     LeafWords words;
   };
 
-  /// Switches on the voxels of some leaves, page by page in whatever order. Thread-safe.
-  /// @throws LimitError  as pageOf
+  /// Switches on voxels of some leaves. Locks each page once; reorders the span. Thread-safe.
+  /// @throws LimitError  the nodes would take more memory than the limit
   void add(std::span<PageLeaf> leaves);
 
-  /// Changes the limit. Not thread-safe.
+  /// Changes the memory limit. Not thread-safe.
   void setMemoryLimit(std::uint64_t bytes) { memoryLimit_ = bytes; }
 
-  /// Bytes of the nodes so far.
+  /// Bytes of the nodes so far, nearly: a page may have up to 15 leaves that are not counted yet.
   std::uint64_t memoryBytes() const { return memoryBytes_; }
 
-  /// Number of active voxels; a sum over pages. Not thread-safe.
+  /// Number of active voxels. Cost O(pages). Not thread-safe.
   std::uint64_t countVoxels() const;
 
-  /// Hangs the pages into a tree and leaves this grid empty. Not thread-safe.
+  /// Moves all nodes into a tree; leaves this object empty. Not thread-safe.
   openvdb::MaskTree::Ptr takeTree();
 
  private:
@@ -79,7 +79,7 @@ class ActiveVoxels {
   };
   tbb::concurrent_unordered_map<openvdb::Coord, Page, OriginHash> pages_;
   tbb::concurrent_unordered_set<openvdb::Coord, OriginHash>
-      uppers_;  // nodes the pages will hang in
+      uppers_;  // origins of the upper nodes that the tree will need
   std::uint64_t memoryLimit_;
   std::atomic<std::uint64_t> memoryBytes_{0};
 };

@@ -2,7 +2,7 @@
 
 #include <openvdb/version.h>
 
-// Only named here: a translation unit that looks into a grid includes <openvdb/openvdb.h> itself.
+// Forward declaration of openvdb::GridBase. Code that uses a grid includes <openvdb/openvdb.h>.
 namespace openvdb {
 OPENVDB_USE_VERSION_NAMESPACE
 namespace OPENVDB_VERSION_NAME {

@@ -1,4 +1,4 @@
-// Voxels to bits, and bits to the shared grid.
+// Positions and marks become bits of leaves, and these go to the shared ActiveVoxels.
 
 // Highway compiles this file once per instruction set, between HWY_BEFORE_ and HWY_AFTER_NAMESPACE.
 #undef HWY_TARGET_INCLUDE
@@ -19,7 +19,7 @@ namespace vox {
 constexpr std::size_t kMostLanes = 8;
 constexpr std::size_t kPlacesAtOnce = LeafCache::kPositionsAtOnce;
 
-/// Where single voxels go: their leaf, its slot, and their number in it.
+/// Places of single voxels: coordinates of the leaf, its slot in the cache, offset in the leaf.
 struct LeafCache::VoxelPlaces {
   using Column = std::array<std::int32_t, kPlacesAtOnce>;
   alignas(64) std::array<Column, 3> leaf;
@@ -36,8 +36,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<double, kMostLanes>;
 
-/// Where voxelOf puts positions, a multiple of kMostLanes.
-/// @param load  sets the coordinates of positions from a number on
+/// Computes the places of the voxels that hold some positions (voxelOf).
+/// @param count  of positions, a multiple of kMostLanes
+/// @param load   load(i, x, y, z) sets the coordinates of the positions from number i on
 template <class Load>
 void placeEach(std::size_t count, LeafCache::VoxelPlaces& places, Load&& load) {
   const D d;
@@ -154,7 +155,8 @@ void LeafCache::addBlock(const openvdb::Coord& origin, std::uint64_t voxels) {
     if (y > 4) add(x, leaf.y() + 1, leafZ, rows >> (64 - 8 * y));
   };
   for (std::int32_t i = 0; i < 4; ++i) {
-    // Four rows of four bits: each to a byte of its own, then along z, over the end of this leaf.
+    // Four rows of four bits: each row gets a byte of its own. Then the rows are moved to z; bits
+    // beyond the end of this leaf go to the next leaf along z.
     std::uint32_t rows = static_cast<std::uint32_t>(voxels >> (16 * i)) & 0xFFFFU;
     rows = (rows | rows << 8U) & 0x00FF00FFU;
     rows = (rows | rows << 4U) & 0x0F0F0F0FU;

@@ -11,23 +11,23 @@
 
 namespace vox {
 
-/// One thread's private way into an ActiveVoxels, in three steps that each save the next one work.
-/// Kernels mark voxels as bytes in a brick (mark_brick.h), and collect() packs the leaves that were
-/// touched into bits. Single voxels go into a cache of 8 x 8 x 8 leaves of bits, addressed by leaf
-/// coordinates modulo its size. Both wait in a list that takes the lock of a page once for many
-/// leaves.
+/// Buffer of one thread in front of an ActiveVoxels. Voxels come in two ways: kernels mark them as
+/// bytes in a brick (mark_brick.h), and collect() packs the marked leaves into bits; single voxels
+/// go into a cache of 8 x 8 x 8 leaves of bits, addressed by leaf coordinates modulo its size.
+/// Finished leaves wait in a list, so that the lock of a page is taken once for many leaves.
 ///
-/// One per thread. What it holds reaches the grid with flush() at the latest.
+/// One object per thread. Voxels reach the ActiveVoxels at the latest with flush().
 class LeafCache {
  public:
   explicit LeafCache(ActiveVoxels& grid);
 
-  /// MarkBrick::kMarks bytes, all 0 between calls of collect.
+  /// The marks of the brick: MarkBrick::kMarks bytes, all 0 after collect().
   std::uint8_t* marks() { return brick_.marks(); }
 
-  /// Takes the marks in the leaves of a box of voxels that fits (MarkBrick) and clears them. No
-  /// other leaf may be marked.
-  /// @throws LimitError  the grid may not grow
+  /// Switches on the marked voxels and clears the marks.
+  /// @param low, high  corners of a box of voxels that fits (MarkBrick::fits); only its leaves may
+  ///   have marks
+  /// @throws LimitError  the ActiveVoxels exceeds its memory limit
   void collect(const openvdb::Coord& low, const openvdb::Coord& high);
 
   /// Switches on one voxel.
@@ -43,22 +43,24 @@ class LeafCache {
   /// @throws LimitError  as collect
   void add(std::span<const Vec3d> positions);
 
-  /// Some positions, coordinate by coordinate; what lies behind the last of them does not matter.
+  /// Some positions, coordinate by coordinate. Unused places at the end may hold anything.
   static constexpr std::size_t kPositionsAtOnce = 64;
   struct Positions {
     using Column = std::array<double, kPositionsAtOnce>;
     alignas(64) std::array<Column, 3> axis{};
     Vec3d operator[](std::size_t i) const { return {axis[0][i], axis[1][i], axis[2][i]}; }
   };
-  /// The same for the first `count` of them.
+  /// Switches on the voxels that hold the first `count` positions (voxelOf).
+  /// @throws LimitError  as collect
   void add(const Positions& positions, std::size_t count);
 
-  /// Switches on voxels of the 4 x 4 x 4 block that begins at `origin`, which may lie across
-  /// leaves: bit 16 i + 4 j + k stands for voxel origin + (i, j, k).
+  /// Switches on voxels of a block of 4 x 4 x 4: bit 16 i + 4 j + k stands for voxel
+  /// origin + (i, j, k). The block may lie across leaves.
   /// @throws LimitError  as collect
   void addBlock(const openvdb::Coord& origin, std::uint64_t voxels);
 
-  /// Sends everything to the grid.
+  /// Sends all voxels to the ActiveVoxels.
+  /// @throws LimitError  as collect
   void flush();
 
   struct VoxelPlaces;
@@ -72,10 +74,10 @@ class LeafCache {
   static constexpr unsigned kCacheLog2 = 3;
   static constexpr unsigned kCacheMask = (1U << kCacheLog2) - 1;
   static constexpr std::size_t kSlots = std::size_t{1} << (3 * kCacheLog2);
-  /// The leaf of a slot that holds none: no voxel has such coordinates.
+  /// Stands for an empty slot; no voxel has such leaf coordinates.
   static constexpr LeafCoord kNoLeaf = {INT32_MIN, INT32_MIN, INT32_MIN};
 
-  /// The bits of a leaf.
+  /// The bits of a leaf in the cache. The leaf takes the place of another one with the same slot.
   LeafWords& wordsOf(const LeafCoord& leaf) {
     const unsigned slot = (static_cast<unsigned>(leaf.x) & kCacheMask) << (2 * kCacheLog2) |
                           (static_cast<unsigned>(leaf.y) & kCacheMask) << kCacheLog2 |
@@ -92,14 +94,14 @@ class LeafCache {
 
   ActiveVoxels& grid_;
   MarkBrick brick_;
-  std::vector<LeafWords> words_;                 // per slot
-  std::vector<LeafCoord> leaves_;                // whose they are
-  std::vector<ActiveVoxels::PageLeaf> pending_;  // on their way to the grid, to lock pages seldom
+  std::vector<LeafWords> words_;                 // bits of the leaf in each slot
+  std::vector<LeafCoord> leaves_;                // leaf in each slot, or kNoLeaf
+  std::vector<ActiveVoxels::PageLeaf> pending_;  // leaves to send to grid_
   struct KnownPage {
     openvdb::Coord origin;
     ActiveVoxels::Page* page = nullptr;
   };
-  std::array<KnownPage, 8> pages_;  // by the parity of their coordinates
+  std::array<KnownPage, 8> pages_;  // last page of each parity of its coordinates
 };
 
 }  // namespace vox

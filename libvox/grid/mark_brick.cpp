@@ -1,4 +1,4 @@
-// Bytes to bits.
+// Packs marks, a byte per voxel, into bits.
 
 // Highway compiles this file once per instruction set, between HWY_BEFORE_ and HWY_AFTER_NAMESPACE.
 #undef HWY_TARGET_INCLUDE
@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t kLeafMarks = MarkBrick::kLeafMarks;
 
 /// Turns the 512 marks of a leaf into bits and clears them.
-/// @return whether there were any
+/// @return whether any voxel was marked
 #if HWY_TARGET == HWY_SCALAR
 inline bool packLeaf(std::uint8_t* marks, std::uint64_t* words) {
   std::uint64_t any = 0;

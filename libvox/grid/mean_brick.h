@@ -7,18 +7,20 @@
 
 namespace vox {
 
-/// One thread's way of many samples into VoxelMeans: kernels add them to sums in a brick, and
-/// collect() takes these, leaf by leaf, once a tile.
+/// Buffer of one thread in front of a VoxelMeans, for many samples. Kernels add samples to sums in
+/// a brick; collect() adds these sums to the VoxelMeans, leaf by leaf, once per tile.
 class MeanBrick {
  public:
   explicit MeanBrick(VoxelMeans& means) : writer_(means), sums_(MarkBrick::kMarks) {}
 
-  /// MarkBrick::kMarks bytes, all 0 between calls of collect.
+  /// The marks of voxels that have samples: MarkBrick::kMarks bytes, all 0 after collect().
   std::uint8_t* marks() { return brick_.marks(); }
-  /// The sums of the voxels of these marks, 0 where there is none.
+  /// The sums of the same voxels, in the order of the marks; 0 where nothing is marked.
   VoxelMeans::BrickSum* sums() { return sums_.data(); }
 
-  /// Takes the sums of the marked voxels in a box that fits (MarkBrick). No other may be marked.
+  /// Adds the sums of the marked voxels to the VoxelMeans; clears sums and marks.
+  /// @param low, high  corners of a box of voxels that fits (MarkBrick::fits); only its leaves may
+  ///   have marks
   void collect(const openvdb::Coord& low, const openvdb::Coord& high) {
     brick_.take(low, high, taken_);
     for (std::size_t k = 0; k < taken_.count; ++k)
@@ -26,7 +28,7 @@ class MeanBrick {
                    sums_.data() + MarkBrick::firstMark(taken_.origins[k]));
   }
 
-  /// A single sample.
+  /// Adds a single sample.
   void add(const openvdb::Coord& voxel, const Vec3d& vector) { writer_.add(voxel, vector); }
 
  private:

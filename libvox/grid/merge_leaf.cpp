@@ -1,4 +1,4 @@
-// Leaves are merged and counted while they are in the cache.
+// ORs the bits of leaves and counts new ones in the same pass, while both are in the cache.
 
 // Highway compiles this file once per instruction set, between HWY_BEFORE_ and HWY_AFTER_NAMESPACE.
 #undef HWY_TARGET_INCLUDE

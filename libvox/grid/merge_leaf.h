@@ -9,8 +9,9 @@ namespace vox {
 using LeafWords = std::array<std::uint64_t, 8>;
 
 /// Switches on further voxels of a leaf.
-/// @param bits  its 8 words
-/// @return      how many were off before
+/// @param bits  the 8 words of the leaf
+/// @param more  the voxels to switch on
+/// @return      how many of these were off before
 std::uint32_t mergeLeaf(std::uint64_t* bits, const LeafWords& more);
 
 }  // namespace vox

@@ -1,4 +1,5 @@
-// The parameters of solid textures as text: one table says what there is, reads and writes it.
+// The parameters of solid textures as text: one table with the name, the parser and the writer of
+// each.
 
 #include "libvox/grid/texture_spec.h"
 
@@ -179,8 +180,9 @@ const Parameter& parameterNamed(std::string_view name) {
 struct Kind {
   std::string_view name;
   TextureKind kind;
-  std::string_view parameters;  ///< with blanks
-  std::string_view colors;      ///< what follows: unless more is said
+  std::string_view parameters;  ///< names with blanks between them
+  // Defaults:
+  std::string_view colors;
   double turbulence;
   int octaves;
 };

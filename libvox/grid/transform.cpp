@@ -1,4 +1,4 @@
-// World space <-> index space, and how fine the grid is.
+// World space and index space; the voxel size.
 
 #include "libvox/grid/transform.h"
 

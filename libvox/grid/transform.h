@@ -8,7 +8,7 @@
 
 namespace vox {
 
-/// Axis-aligned box in world units.
+/// Axis-aligned box in world units; at first empty.
 struct Box {
   Vec3d low = Vec3d::Constant(std::numeric_limits<double>::infinity());
   Vec3d high = Vec3d::Constant(-std::numeric_limits<double>::infinity());
@@ -25,10 +25,10 @@ struct Box {
   }
 };
 
-/// Box of the points that faces use.
+/// Box of all points that belong to a face.
 Box usedBox(const PolygonMesh& mesh);
 
-/// A quarter turn about the x axis, on the way from the world to the grid.
+/// Quarter turn about the x axis, from world space to the axes of the grid.
 enum class Turn {
   kNoTurn,
   kYToZ,  ///< the y axis becomes the z axis
@@ -41,14 +41,15 @@ inline Vec3d turned(const Vec3d& p, Turn turn) {
   return p;
 }
 
-/// The turn back.
+/// The opposite turn.
 inline Turn inverse(Turn turn) {
   if (turn == Turn::kNoTurn) return turn;
   return turn == Turn::kYToZ ? Turn::kZToY : Turn::kYToZ;
 }
 
-/// Uniform grid: world = voxelSize x index, turned back. Voxel (i, j, k) is the unit cube centred
-/// on (i, j, k), so grids of the same voxel size line up whatever they hold.
+/// Transform between world space and index space: index = turned(world) / voxelSize. Voxel
+/// (i, j, k) is the unit cube centred on (i, j, k) in index space. No grid has an offset, so voxels
+/// of grids with the same voxel size coincide.
 struct GridTransform {
   double voxelSize = 1;  ///< world units, > 0
   Turn turn = Turn::kNoTurn;
@@ -57,11 +58,11 @@ struct GridTransform {
   Vec3d toWorld(const Vec3d& index) const { return turned(index, inverse(turn)) * voxelSize; }
 };
 
-/// Largest absolute index coordinate that may be converted: half of OpenVDB's 32-bit range, so that
-/// neighbours and filters never overflow, and a double still resolves 2.4e-7 voxels.
+/// Bound of absolute index coordinates: half of OpenVDB's 32-bit range, so that neighbours and
+/// filters never overflow. A double still resolves 2.4e-7 voxels there.
 inline constexpr double kMaxIndex = 1 << 30;
 
-/// Voxel sizes that OpenVDB accepts: it refuses a transform whose determinant is below 3e-15.
+/// Range of voxel sizes. OpenVDB refuses a transform whose determinant is below 3e-15.
 inline constexpr double kMinVoxelSize = 1.5e-5;
 inline constexpr double kMaxVoxelSize = 1e18;
 
@@ -71,12 +72,14 @@ inline constexpr double kMaxVoxelSize = 1e18;
 /// @throws LimitError  the voxel size is out of range
 GridTransform transformForDim(const Box& box, int dim);
 
+/// Transform with this voxel size, in world units, without a turn.
 /// @throws UsageError  voxelSize is not a positive finite number
 /// @throws LimitError  voxelSize is out of range
 GridTransform transformForVoxelSize(double voxelSize);
 
-/// @throws LimitError  the box reaches beyond kMaxIndex; the message names the smallest voxel size
-///   that works
+/// Checks that the index coordinates of a box are below kMaxIndex.
+/// @param what  subject of the message
+/// @throws LimitError  they are not; the message names the smallest voxel size that works
 void requireInRange(const Box& boxWorld, const GridTransform& transform,
                     const std::string& what = "the input");
 

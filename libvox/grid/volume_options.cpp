@@ -1,4 +1,4 @@
-// Options of volumes.
+// Options of volumes: combination, checks, and what follows from the target program.
 
 #include "libvox/grid/volume_options.h"
 
@@ -37,7 +37,7 @@ VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second
 }
 
 std::string gridNameFor(GridKind kind, const VolumeOptions& options) {
-  // Houdini's attributes: normals N, colours Cd.
+  // Houdini calls normals N and colours Cd.
   const std::string name = nameIn(kGridNames, kind);
   if (options.target != Target::kHoudini) return name;
   return name == "normal" ? "N" : name == "color" ? "Cd" : name;

@@ -9,66 +9,68 @@
 
 namespace vox {
 
-/// What of an object `density` holds.
+/// Which voxels of an object the grid `density` holds.
 enum class Fill {
-  kSurface,  ///< the active voxels
-  kSolid,    ///< and what they enclose
+  kSurface,  ///< the active voxels of the surface
+  kSolid,    ///< these and the voxels that they enclose
 };
 inline constexpr NameTable<Fill, 2> kFillNames = {
     {{Fill::kSurface, "surface"}, {Fill::kSolid, "solid"}}};
 
-/// What a component that has no inside (one with boundary, or one-sided) is to a volume.
+/// How volumes treat a component of the mesh that has no inside: one with boundary, or one-sided.
 enum class OpenMesh {
-  kError,     ///< a reason to refuse the object
-  kSurface,   ///< a surface: `density` has its voxels, `surface` a sheet one voxel thick
-  kUnsigned,  ///< the same, but `surface` has distances without sign
+  kError,     ///< the object is refused
+  kSurface,   ///< `density` holds its voxels, `surface` a sheet one voxel thick
+  kUnsigned,  ///< as kSurface, but all distances of the grid `surface` are without sign
 };
 inline constexpr NameTable<OpenMesh, 3> kOpenMeshNames = {{{OpenMesh::kError, "error"},
                                                            {OpenMesh::kSurface, "surface"},
                                                            {OpenMesh::kUnsigned, "unsigned"}}};
 
-/// How the values of a file are packed, without loss.
+/// Lossless compression of the values of a file.
 enum class Compression { kBlosc, kZip, kPlain };
 inline constexpr NameTable<Compression, 3> kCompressionNames = {
     {{Compression::kBlosc, "blosc"}, {Compression::kZip, "zip"}, {Compression::kPlain, "none"}}};
 
-/// The program that a file is for.
+/// The program that is to read the file.
 enum class Target {
   kBlender,    ///< z is up
-  kBlender34,  ///< besides, moved by half a voxel: Blender 3.4 draws voxel i from i to i + 1
-  kHoudini,    ///< y is up; names of grids as usual there
+  kBlender34,  ///< z is up; moved by half a voxel, because Blender 3.4 draws voxel i from i to i+1
+  kHoudini,    ///< y is up; grids have the names that are usual there
 };
 inline constexpr NameTable<Target, 3> kTargetNames = {{{Target::kBlender, "blender"},
                                                        {Target::kBlender34, "blender-3.4"},
                                                        {Target::kHoudini, "houdini"}}};
 
-/// The axis of the input that points up.
+/// The axis that points up in the input.
 enum class UpAxis { kY, kZ };
 inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}}};
 
-/// How to make volumes, as far as somebody said.
+/// Options of volumes. Options without a value are not set.
 struct VolumeOptions {
   std::optional<Fill> fill;          ///< default: kSurface
   std::optional<double> gain;        ///< value of `density` at its voxels; see densityValue()
   std::optional<OpenMesh> openMesh;  ///< default: kSurface
   std::optional<double> band;        ///< half width of `surface` in voxels; default 3
-  std::optional<double> tolerance;   ///< of the polygons it is made from, in voxels; default 0.05
-  std::optional<bool> half;          ///< default: false: values are floats of 32 bits
+  std::optional<double> tolerance;   ///< from the polygons of `surface` to the smooth surface, in
+                                     ///< voxels; default 0.05
+  std::optional<bool> half;          ///< true: values of 16 bits; default: false, 32 bits
   std::optional<Compression> compression;  ///< default: kBlosc, if OpenVDB has it
   std::optional<Target> target;            ///< default: kBlender
-  std::optional<UpAxis> up;                ///< default: up as the target has it, so no turning
+  std::optional<UpAxis> up;                ///< default: as in the target, so that nothing turns
 };
 
-/// What `first` says, and `second` where it is silent.
+/// The options of `first`; options that it does not set are those of `second`.
 VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second);
 
-/// Name of a grid in a file.
+/// Name of a grid in the file; depends on the target.
 std::string gridNameFor(GridKind kind, const VolumeOptions& options);
 
-/// How an input is turned about the x axis on its way into the grid.
+/// Turn that brings the up axis of the input to the up axis of the target.
 Turn turnOf(const VolumeOptions& options);
 
-/// @throws UsageError  a number is out of range
+/// Checks the numbers among the options.
+/// @throws UsageError  one is out of range
 void requireValid(const VolumeOptions& options);
 
 }  // namespace vox

@@ -6,8 +6,9 @@
 
 namespace vox {
 
-/// Voxel that holds a position (index space, |coordinate| < 2^31): each coordinate rounded, halves
-/// up. The one rounding rule of the program.
+/// The voxel that holds a position: each coordinate rounded to the nearest integer, halves up. All
+/// code that rounds positions to voxels follows this rule.
+/// @param positionIndex  index space; |coordinate| < 2^31
 inline openvdb::Coord voxelOf(const Vec3d& positionIndex) {
   const auto round = [](double x) {
     const auto towardsZero =

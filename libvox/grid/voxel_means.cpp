@@ -1,4 +1,4 @@
-// Sums of vectors, a slot for each active voxel.
+// Sums of vectors: one slot for each active voxel, leaf after leaf.
 
 #include "libvox/grid/voxel_means.h"
 
@@ -29,7 +29,7 @@ std::size_t onesBelow(std::uint64_t word, unsigned bit) {
   return static_cast<std::size_t>(std::popcount(word & ((std::uint64_t{1} << bit) - 1)));
 }
 
-/// How many voxels of a leaf come before one of them.
+/// Number of active voxels of a leaf before the one at `offset`.
 std::size_t rankIn(const Leaf& leaf, openvdb::Index offset) {
   constexpr openvdb::Index kBits = 64;
   std::size_t rank = 0;
@@ -66,13 +66,13 @@ VoxelMeans::VoxelMeans(const openvdb::MaskTree& voxels) {
     slots += leaves_[i]->onVoxelCount();
   }
   locks_ = std::make_unique<tbb::spin_mutex[]>(leaves_.size());
-  // Zeros that nobody has to write: pages of memory come when they are used, by whoever does.
+  // calloc: the system zeroes each page of memory when a thread first uses it.
   sums_.reset(static_cast<Sum*>(std::calloc(std::max<std::size_t>(slots, 1), sizeof(Sum))));
   if (sums_ == nullptr) throw std::bad_alloc();
 }
 
 std::uint64_t VoxelMeans::bytesFor(std::uint64_t voxels, std::uint64_t leaves) {
-  constexpr std::uint64_t kPerLeaf = 256;  // of the tables, at 64 leaves a page
+  constexpr std::uint64_t kPerLeaf = 256;  // bytes of the tables, if a page has 64 leaves
   return voxels * sizeof(Sum) + leaves * kPerLeaf;
 }
 
@@ -179,7 +179,7 @@ std::vector<VoxelMeans::Gap> VoxelMeans::gaps() const {
 void VoxelMeans::fillGaps() {
   std::vector<Gap> open = gaps();
   while (!open.empty()) {
-    std::vector<Sum> means(open.size());  // none is seen before all of this round are made
+    std::vector<Sum> means(open.size());  // stored after the round, so that order does not matter
     constexpr std::size_t kGapsPerTask = 256;
     parallelForEach(open.size(), kGapsPerTask,
                     [&](std::size_t i) { means[i] = meanOfNeighbours(open[i].voxel); });

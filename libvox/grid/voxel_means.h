@@ -22,7 +22,7 @@ struct VectorSum {
   Integer x = 0;
   Integer y = 0;
   Integer z = 0;
-  Integer count = 0;  ///< of vectors
+  Integer count = 0;  ///< number of vectors
 
   template <class Other>
   void add(const VectorSum<Other>& more, Integer unit) {
@@ -33,35 +33,36 @@ struct VectorSum {
   }
 };
 
-/// Mean vectors of active voxels, of samples that come in whatever order: colours, or normals. The
-/// sums are integers, so neither order nor threads show. Source: DESIGN section 8.
+/// Mean vectors (colours, or normals) of samples at active voxels. The sums are integers, so the
+/// means depend neither on the order of the samples nor on threads. Source: DESIGN section 8.
 class VoxelMeans {
  public:
-  /// @param voxels  all in leaves; must stay as they are
+  /// @param voxels  the active voxels, without active tiles; the tree must stay alive and unchanged
   explicit VoxelMeans(const openvdb::MaskTree& voxels);
 
-  /// What one needs for as many voxels and leaves, in bytes.
+  /// Bytes of an object for so many voxels and leaves.
   static std::uint64_t bytesFor(std::uint64_t voxels, std::uint64_t leaves);
 
-  /// In units of 2^-kFractionBits: of 2^33 samples at least.
+  /// The sum of a voxel, in units of 2^-kFractionBits. It has room for 2^33 samples.
   using Sum = VectorSum<std::int64_t>;
   static constexpr int kFractionBits = 30;
 
-  /// A voxel's share of a brick: in units of 2^-kBrickFractionBits, of at most kMostBrickSamples.
+  /// The sum of a voxel in a MeanBrick, in units of 2^-kBrickFractionBits. It has room for
+  /// kMostBrickSamples samples.
   using BrickSum = VectorSum<std::int32_t>;
   static constexpr int kBrickFractionBits = 18;
   static constexpr std::int32_t kMostBrickSamples = 1 << 12;
 
-  /// One thread's way to the sums.
+  /// Adds samples. One object per thread; objects of different threads may work at the same time.
   class Writer {
    public:
     explicit Writer(VoxelMeans& means) : means_(means) {}
-    /// A sample; of no consequence outside active voxels.
-    /// @param vector  clamped to -1 .. 1
+    /// Adds a sample; ignores it if the voxel is not active.
+    /// @param vector  its coordinates are clamped to -1 .. 1
     void add(const openvdb::Coord& voxel, const Vec3d& vector);
-    /// Takes the sums of some voxels of a leaf and sets them to 0.
-    /// @param touched  these voxels; sums outside active ones are of no consequence
-    /// @param sums     512, in the order of the leaf
+    /// Adds the sums of some voxels of a leaf, and sets these sums to 0.
+    /// @param touched  the voxels; those that are not active are ignored
+    /// @param sums     512 of them, in the order of the leaf
     void take(const openvdb::Coord& leafOrigin, const LeafWords& touched, BrickSum* sums);
 
    private:
@@ -69,19 +70,22 @@ class VoxelMeans {
 
     VoxelMeans& means_;
     openvdb::Coord pageOrigin_;
-    const std::uint32_t* page_ = nullptr;  // of the sample before
+    const std::uint32_t* page_ = nullptr;  // page of the last sample
     openvdb::Coord leafOrigin_;
     std::uint32_t leaf_ = kNoLeaf;
   };
 
-  /// Gives voxels without a sample the mean of their neighbours, from voxel to voxel as far as it
-  /// takes. After the last sample.
+  /// Gives each voxel without a sample the mean of its neighbours' means. Repeats until no voxel
+  /// changes, so that means spread from voxel to voxel. Call it after the last sample. Parallel;
+  /// result independent of thread count.
   void fillGaps();
 
-  /// Mean of an active voxel; nothing if no sample is anywhere near.
+  /// Mean of a voxel; nothing if it is not active or has no sample. After fillGaps only voxels that
+  /// are connected to no sample have none.
   std::optional<Vec3d> meanOf(const openvdb::Coord& voxel) const;
 
-  /// The sums of the active voxels of a leaf, in the order of the leaf; null if it has none.
+  /// The sums of the active voxels of a leaf, in the order of the leaf; null if there is no such
+  /// leaf.
   const Sum* sumsOf(const openvdb::Coord& leafOrigin) const;
 
  private:
@@ -93,7 +97,7 @@ class VoxelMeans {
   struct FreeSums {
     void operator()(Sum* sums) const;
   };
-  /// Numbers of the leaves in an inner node of 128^3 voxels.
+  /// Numbers of the leaves of an inner node of 128^3 voxels, or kNoLeaf.
   static constexpr int kPageLog2 = 7;
   static constexpr std::size_t kPageLeaves = std::size_t{1} << (3 * (kPageLog2 - 3));
   using Page = std::array<std::uint32_t, kPageLeaves>;
@@ -111,9 +115,9 @@ class VoxelMeans {
   std::vector<Gap> gaps() const;
 
   std::vector<const Leaf*> leaves_;
-  std::vector<std::size_t> firstSlots_;  // of each leaf
+  std::vector<std::size_t> firstSlots_;  // slot of the first active voxel of each leaf
   std::unordered_map<openvdb::Coord, std::unique_ptr<Page>> pages_;
-  std::unique_ptr<tbb::spin_mutex[]> locks_;  // of the sums of each leaf
+  std::unique_ptr<tbb::spin_mutex[]> locks_;  // one for the sums of each leaf
   std::unique_ptr<Sum[], FreeSums> sums_;     // a slot for each voxel, leaf after leaf
 };
 
