@@ -1,4 +1,4 @@
-// Write beside the target, sync, rename.
+// A partial file beside the target, synced and then renamed.
 
 #include "libvox/io/atomic_file.h"
 
@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of partial files for signal handlers: plain bytes, valid while the state says so. A file
-/// that finds no free slot is still removed by its destructor.
+/// Name of a partial file, kept for signal handlers as plain bytes; valid in state kUsed. A file
+/// that finds no free slot is removed by its destructor only.
 struct Slot {
   enum State { kFree, kFilling, kUsed };
   std::atomic<int> state{kFree};
@@ -53,7 +53,7 @@ fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// Makes a new file of a name nobody can foresee.
+/// Makes a new file with a random name.
 fs::path createPartial(const fs::path& folder) {
   constexpr int kTries = 100;
   std::random_device random;
@@ -77,7 +77,7 @@ void syncFile(const fs::path& path) {
   if (!synced) throw IoError(path.string() + ": cannot be synced to disk: " + why);
 }
 
-/// Makes the rename last. A folder that may be written but not read cannot be synced: never mind.
+/// Makes the rename durable. A folder without read permission cannot be synced; that is no error.
 void syncFolder(const fs::path& folder) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return;

@@ -6,32 +6,34 @@
 
 namespace vox {
 
-/// Checks before the work starts that a file may be written: its folder exists and is writable, the
-/// target is not a folder or device, and does not exist unless `overwrite`.
-/// @throws IoError  says which of these fails
+/// Checks, before the work starts, that a file can be written: its folder exists and is writable,
+/// and the target is not a folder or device and, unless `overwrite`, does not exist.
+/// @throws IoError  one of these fails; the message says which
 void requireWritable(const std::filesystem::path& target, bool overwrite);
 
-/// The file that a chain of symbolic links stands for, whether it exists or not; any other path
-/// itself.
+/// The path at the end of a chain of symbolic links, whether a file exists there or not. A path
+/// that is no link is returned unchanged.
 /// @throws IoError  the links cannot be followed
 std::filesystem::path targetOfLinks(std::filesystem::path target);
 
-/// A file that appears under its name only when complete. Bytes go to a new file ".vox-RANDOM.part"
-/// in the folder of the target (of what it points to, for a symbolic link); commit() syncs it,
-/// gives it the permissions of the file it replaces and renames it. Without commit() the destructor
-/// removes the partial file and the target is as it was. Several may be open at a time.
+/// A file that appears under its name only when it is complete. Bytes go to a partial file
+/// ".vox-RANDOM.part" in the folder of the target (for a symbolic link: of the file that the link
+/// leads to). commit() syncs the partial file, gives it the permissions of the file that it
+/// replaces, and renames it. Without commit() the destructor removes the partial file and leaves
+/// the target unchanged. Several objects may exist at a time.
 class AtomicFile {
  public:
-  /// @throws IoError  see requireWritable; or the partial file cannot be made
+  /// @throws IoError  as requireWritable, or the partial file cannot be made
   AtomicFile(const std::filesystem::path& target, bool overwrite);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Readable, writable, seekable, binary.
+  /// Stream of the partial file: readable, writable, seekable, binary.
   std::fstream& stream() { return stream_; }
 
-  /// @throws IoError  a write, the sync or the rename failed: full disk, for one
+  /// Makes the file appear under its name.
+  /// @throws IoError  a write, the sync or the rename failed, on a full disk for example
   void commit();
 
  private:
@@ -41,8 +43,8 @@ class AtomicFile {
   std::fstream stream_;
 };
 
-/// Removes the partial files of this process. Safe to call from a signal handler; the files must
-/// not be used any more.
+/// Removes the partial files of this process. Safe in signal handlers. No AtomicFile may be used
+/// afterwards.
 void removePartialFiles() noexcept;
 
 }  // namespace vox

@@ -1,4 +1,4 @@
-// Colours in mesh files.
+// Colours of mesh files, from 0 to 1 or 0 to 255, as linear light.
 
 #include "libvox/io/file_colors.h"
 
@@ -24,7 +24,7 @@ std::vector<Vec3f> FileColors::takeLinear(Index count) {
   constexpr float kBytes = 255;
   const float one = largest_ > 1 ? kBytes : 1;
   const auto linear = [&](float value) {
-    const double share = value > 0 ? std::min(value / one, 1.0F) : 0.0F;  // 0 if it is no number
+    const double share = value > 0 ? std::min(value / one, 1.0F) : 0.0F;  // nan becomes 0
     return static_cast<float>(linearFromScreen(share));
   };
   for (std::size_t k = 0; k < values_.size(); ++k)

@@ -6,16 +6,17 @@
 
 namespace vox {
 
-/// Colours of points or faces as a text has them, until all are read.
+/// Collects the colours of points or faces while a file is read.
 ///
-/// Files store what a screen shows, from 0 to 1 or from 0 to 255; it is the latter if any number
-/// of the file is above 1. Alpha is not kept.
+/// Files store sRGB values from 0 to 1 or from 0 to 255. The range is 0 to 255 if any value of the
+/// file is above 1; so the colours can be converted only after the last one is read.
 class FileColors {
  public:
-  /// Colour of an element; those left out are white.
+  /// Sets the colour of an element, in the range of the file.
   void set(Index element, const Vec3d& values);
 
-  /// Linear colours of `count` elements, or none if none was set.
+  /// Linear colours, 0 to 1, of `count` elements; white for an element whose colour was not set.
+  /// Empty if no colour was set. Leaves this object empty.
   std::vector<Vec3f> takeLinear(Index count);
 
  private:

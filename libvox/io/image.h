@@ -7,10 +7,10 @@
 
 namespace vox {
 
-/// Red, green, blue and coverage; sRGB, not multiplied by coverage.
+/// Red, green and blue (sRGB, not multiplied by coverage), and coverage.
 using Pixel = std::array<std::uint8_t, 4>;
 
-/// Rows from top to bottom.
+/// Picture; rows from top to bottom, pixels of a row from left to right.
 struct Image {
   int width = 0;
   int height = 0;

@@ -1,4 +1,4 @@
-// Input files as strings, with one message for each way in which a file can be none.
+// Input files as strings, with a message for each reason why a file cannot be read.
 
 #include "libvox/io/input_file.h"
 
@@ -47,7 +47,7 @@ std::string contentsOf(const fs::path& file) {
 std::string lowerExtension(const fs::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');  // in any locale
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');  // the same in every locale
   return extension;
 }
 

@@ -5,8 +5,9 @@
 
 namespace vox {
 
-/// Refuses what cannot be read to an end, before it is opened: opening a FIFO would block.
-/// @throws InputError  missing, a directory, a device, or empty
+/// Checks that a path is a regular file with content, without opening it: opening a FIFO would
+/// block.
+/// @throws InputError  it is missing, a directory, a device, or empty
 void requireInputFile(const std::filesystem::path& file);
 
 /// The whole content of a file.
@@ -14,7 +15,7 @@ void requireInputFile(const std::filesystem::path& file);
 /// @throws LimitError  it is larger than the available memory
 std::string contentsOf(const std::filesystem::path& file);
 
-/// Extension with its dot, in lower case: ".obj".
+/// Extension with its dot, in lower case, such as ".obj".
 std::string lowerExtension(const std::filesystem::path& file);
 
 }  // namespace vox

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kHeaderBytes = 16;
 constexpr std::uint8_t kNewestVersion = 2U << 5 | 2U;    // 2.2, written by OpenMesh 9
 constexpr std::uint8_t kHalfedgeVersion = 2U << 5;       // 2.0 and later store half-edges
-constexpr std::uint8_t kTypeNameVersion = 2U << 5 | 2U;  // custom properties name their type
+constexpr std::uint8_t kTypeNameVersion = 2U << 5 | 2U;  // custom properties have a type name
 constexpr unsigned kInteger32 = 2;                       // ChunkHeader::bits
 constexpr unsigned kFloat64 = 1;
 
@@ -130,7 +130,7 @@ void ChunkFilter::readHeader() {
   kept_ = data_.substr(0, kHeaderBytes);
 }
 
-// One chunk; false at the end. A missing sentinel is fine, as it is for OpenMesh.
+// Reads one chunk; returns false at the end. A missing sentinel is accepted, as OpenMesh does.
 bool ChunkFilter::readChunk() {
   if (at_ == data_.size()) return false;
   const std::size_t begin = at_;
@@ -176,7 +176,8 @@ ChunkFilter::Kept ChunkFilter::kindOf(const ChunkHeader& chunk) const {
   return connects && header_.version >= kHalfedgeVersion ? kHalfedges : kNothing;
 }
 
-// What OpenMesh asserts, or reads as something else than we measured.
+// Refuses layouts on which OpenMesh asserts, or of which it would read another number of bytes than
+// dataBytes.
 void ChunkFilter::checkLayout(const ChunkHeader& chunk, Kept kind) const {
   if (kind == kPositions && (!chunk.isFloat || chunk.bits > kFloat64 || chunk.dimension != 3))
     fail("vertex positions are not three floats or doubles; save it again with OpenMesh 9");
@@ -196,7 +197,7 @@ std::uint64_t ChunkFilter::dataBytes(const ChunkHeader& chunk) const {
                   ? 0
                   : loadNumber<std::uint32_t>(data_.data() + at_, std::endian::little));
     case kTypeStatus:
-      return 4 * count;  // whatever the chunk header says
+      return 4 * count;  // OpenMesh ignores the size in the chunk header
     case kTypeTopology:
       if (chunk.entity == kEntityFace && header_.version < kHalfedgeVersion)
         return polygonBytes(indexBytes);
@@ -212,7 +213,8 @@ std::uint64_t ChunkFilter::dataBytes(const ChunkHeader& chunk) const {
   }
 }
 
-// Faces of versions before 2: vertex indices, behind a 16-bit corner count in a mesh of kind P.
+// Bytes of the faces in versions before 2: the vertex indices of each face; in a mesh of kind P
+// each face starts with its number of corners, 16 bits.
 std::uint64_t ChunkFilter::polygonBytes(unsigned indexBytes) const {
   if (header_.meshKind != 'P')
     return std::uint64_t{header_.faceCount} * indexBytes * (header_.meshKind == 'T' ? 3 : 4);

@@ -6,18 +6,19 @@
 
 namespace vox {
 
-/// An OM file without anything but the mesh: header, vertex positions, connectivity, face status.
+/// An OM file cut down to the mesh: header, vertex positions, connectivity, face status.
 struct OmMesh {
   std::string bytes;
   std::uint32_t vertexCount;
   std::uint32_t faceCount;
 };
 
-/// Checks the chunks of an OM file (versions up to 2.2) against its size and drops those that are
-/// not part of the mesh. OpenMesh's reader can take the result: it allocates what a file claims,
-/// asserts (aborts) on chunks of odd dimension, and reads past a file's end. Indices are unchecked.
+/// Checks the chunks of an OM file (versions up to 2.2) against the size of the file, and drops
+/// chunks that are not part of the mesh. The result is safe for OpenMesh's reader, which trusts its
+/// input: it allocates the sizes that a file states, aborts on chunks of wrong dimension, and reads
+/// past the end of a file. Indices are not checked.
 ///
-/// @throws InputError  truncated, damaged, too new, or no OM file
+/// @throws InputError  the file is truncated, damaged, too new, or no OM file
 OmMesh omMeshOnly(std::string_view data, const std::string& fileName);
 
 }  // namespace vox

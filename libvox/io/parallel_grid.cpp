@@ -1,4 +1,4 @@
-// Leaves to bytes, several at a time.
+// Serializes and compresses the leaves of a grid on all threads.
 
 #include "libvox/io/parallel_grid.h"
 
@@ -16,7 +16,8 @@
 namespace vox {
 namespace {
 
-/// Bytes in memory that is used again: fresh pages cost more than what is written to them.
+/// A stream buffer whose memory is reused: to get fresh pages of memory costs more than to write to
+/// them.
 class Bytes : public std::streambuf {
  public:
   void clear() { bytes_.clear(); }
@@ -68,7 +69,7 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
  private:
   using Leaf = typename TreeT::LeafNodeType;
 
-  /// How leaves are written.
+  /// Format in which leaves are written.
   struct Format {
     openvdb::io::StreamMetadata metadata;  ///< compression, background
     bool half;
@@ -77,14 +78,14 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
   static void write(std::span<const Leaf* const> leaves, const Format& format, Bytes& to) {
     to.clear();
     std::ostream stream(&to);
-    stream.exceptions(std::ios::badbit);  // else no memory would mean no bytes, and no error
+    stream.exceptions(std::ios::badbit);  // otherwise bad_alloc would be lost, and bytes missing
     auto metadata = std::make_shared<openvdb::io::StreamMetadata>(format.metadata);
     openvdb::io::setStreamMetadataPtr(stream, metadata);
     for (const Leaf* leaf : leaves) leaf->writeBuffers(stream, format.half);
   }
 };
 
-/// Null if the grid is of another type.
+/// The grid as a ParallelGrid; null if it has another type of tree.
 template <class TreeT>
 openvdb::GridBase::ConstPtr inParallelIf(const openvdb::GridBase::Ptr& grid) {
   const auto typed = openvdb::gridPtrCast<openvdb::Grid<TreeT>>(grid);

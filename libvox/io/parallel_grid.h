@@ -4,10 +4,10 @@
 
 namespace vox {
 
-/// A view of a grid, with the same tree, for archives to write: its leaves are serialized and
-/// compressed by OpenVDB on all threads, up to some 13 MB at a time, and come out in the same bytes
-/// as from the grid itself. Other grids than those of floats and vectors are returned as they are:
-/// of masks there is nothing to compress.
+/// A grid to be given to an OpenVDB archive in place of `grid`. It shares the tree and is written
+/// in the same bytes, but OpenVDB serializes and compresses its leaves on all threads, in groups of
+/// up to some 13 MB. Only grids of floats and of float vectors are wrapped; others are returned
+/// unchanged (masks have no values to compress).
 openvdb::GridBase::ConstPtr writtenInParallel(const openvdb::GridBase::Ptr& grid);
 
 }  // namespace vox

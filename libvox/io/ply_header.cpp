@@ -69,7 +69,7 @@ class HeaderParser {
   bool hasVertices_ = false;
 };
 
-// One line; false if it ends the header.
+// Reads one line; returns false for the line that ends the header.
 bool HeaderParser::readLine() {
   const std::string_view keyword = scan_.token();
   if (keyword == "end_header") return false;

@@ -15,10 +15,10 @@ enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, 
 /// Size in bytes.
 std::size_t sizeOf(PlyType type);
 
-/// What full brightness is in a colour of this type: the largest integer, or 1.
+/// Value of full brightness in a colour of this type: the largest integer, or 1.
 double brightest(PlyType type);
 
-/// What a property means to us.
+/// Meaning of a property for the reader.
 enum class PlyRole { kIgnored, kX, kY, kZ, kRed, kGreen, kBlue, kFace, kStrips };
 
 struct PlyProperty {
@@ -30,22 +30,24 @@ struct PlyProperty {
 };
 
 struct PlyElement {
-  std::string name;  ///< printable
+  std::string name;  ///< printable characters only
   std::uint64_t count = 0;
   bool isVertex = false;
   bool isFace = false;
-  bool hasColor = false;  ///< red, green and blue
+  bool hasColor = false;  ///< has red, green and blue
   std::vector<PlyProperty> properties;
 };
 
 struct PlyHeader {
-  std::optional<std::endian> binaryOrder;  ///< none: text
+  std::optional<std::endian> binaryOrder;  ///< of a binary body; nothing: text
   std::vector<PlyElement> elements;
   std::uint64_t vertexCount = 0;
 };
 
-/// Reads a header up to and including the line end_header, checks that it describes positions and
-/// faces, and leaves the scanner at the start of the body. Counts are not checked against the body.
+/// Reads a header up to and including the line end_header, and checks that it describes positions
+/// and faces. The scanner then stands at the start of the body. Counts are not checked against the
+/// body.
+/// @throws InputError  the header is malformed
 PlyHeader parsePlyHeader(TextScanner& scan);
 
 }  // namespace vox

@@ -1,4 +1,4 @@
-// Lists of element numbers.
+// Text files of indices.
 
 #include "libvox/io/read_indices.h"
 

@@ -8,7 +8,8 @@
 namespace vox {
 
 /// Reads a text file of 0-based indices, separated by blanks and line ends; # starts a comment.
-/// @throws InputError  unreadable, or not an index; the message names file and line
+/// @throws InputError  the file is unreadable, or a token is not an index; the message names file
+///   and line
 std::vector<Index> readIndices(const std::filesystem::path& file);
 
 }  // namespace vox

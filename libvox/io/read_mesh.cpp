@@ -1,4 +1,4 @@
-// Mesh files of any known format, with the checks that all share.
+// Mesh files of all formats, and the checks that all formats share.
 
 #include "libvox/io/read_mesh.h"
 
@@ -34,7 +34,7 @@ constexpr std::array<Format, 5> kFormats = {{
     {".om", parseOm},
 }};
 
-// The parser of a file name; null if its extension is unknown.
+// The parser for the extension of a file name; null if it is unknown.
 Parser parserFor(const fs::path& file) {
   const std::string extension = lowerExtension(file);
   const auto format = std::find_if(kFormats.begin(), kFormats.end(),

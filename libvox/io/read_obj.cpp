@@ -34,7 +34,7 @@ class ObjParser {
   }
 
  private:
-  // An index that names no point yet; the point may follow later in the file.
+  // An index of a point that has not been read yet; it may follow later in the file.
   struct ForwardReference {
     std::int64_t point;  // from 1, as in the file
     std::size_t line;
@@ -49,10 +49,10 @@ class ObjParser {
   TextScanner scan_;
   PolygonMesh mesh_;
   FileColors colors_;
-  std::vector<ForwardReference> forward_;  // strictly increasing points: the first bad one is in it
+  std::vector<ForwardReference> forward_;  // only those with a larger point than all before
 };
 
-// v x y z, then nothing, a weight, a colour, or a colour with a fourth number.
+// Line "v x y z", then nothing, a weight, a colour, or a colour with a fourth number.
 void ObjParser::readPoint() {
   Vec3d point;
   Vec3d color;
@@ -84,7 +84,8 @@ void ObjParser::readFace() {
   mesh_.faceOffsets.push_back(mesh_.cornerCount());
 }
 
-// v, v/vt, v//vn or v/vt/vn. Positive indices count from 1, negative ones back from the last point.
+// Corner "v", "v/vt", "v//vn" or "v/vt/vn". Positive indices count from 1, negative ones back from
+// the last point.
 Index ObjParser::readCorner(std::string_view corner) {
   const std::size_t slash = std::min(corner.find('/'), corner.size());
   checkTextureAndNormal(corner.substr(slash));
@@ -103,8 +104,8 @@ Index ObjParser::readCorner(std::string_view corner) {
   return static_cast<Index>(index > 0 ? index - 1 : pointCount + index);
 }
 
-// The part of a corner from its first slash on. We use neither texture nor normal, so their range
-// does not matter, but nonsense there says that the file is damaged.
+// Checks the part of a corner from its first slash on. Texture and normal are not used, so their
+// range does not matter; but they must be numbers, else the file is damaged.
 void ObjParser::checkTextureAndNormal(std::string_view indices) const {
   int count = 0;
   while (!indices.empty()) {

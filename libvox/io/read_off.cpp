@@ -1,7 +1,7 @@
 // Object File Format, text.
 //
-// Source: Geomview manual, "OFF Files". Beyond it, the counts may share the keyword's line and the
-// edge count may be missing.
+// Source: Geomview manual, "OFF Files". Accepted besides: counts on the line of the keyword; no
+// edge count.
 
 #include "libvox/core/error.h"
 #include "libvox/io/file_colors.h"
@@ -65,7 +65,8 @@ void OffParser::readHeader() {
     scan_.fail("unexpected " + quote(extra) + " after the counts");
 }
 
-// [ST][C][N][4][n]OFF; the first three in any order. False if the token is no keyword at all.
+// Reads the keyword [ST][C][N][4][n]OFF, the first three in any order. False if the token is no
+// keyword.
 bool OffParser::readKeyword(std::string_view token) {
   if (!token.ends_with("OFF")) return false;
   std::string_view flags = token.substr(0, token.size() - 3);
@@ -91,7 +92,7 @@ std::int64_t OffParser::readCount(std::string_view token, const char* what) cons
   return count;
 }
 
-// The first token of an element, which must be there.
+// The first token of an element. Fails if the text ends before it.
 std::string_view OffParser::tokenInside(const char* element, std::int64_t index,
                                         std::int64_t count) {
   const std::string_view token = scan_.tokenOnAnyLine();
@@ -108,7 +109,7 @@ void OffParser::readPoint(std::int64_t v) {
   Vec3d point;
   for (int axis = 0; axis < 3; ++axis)
     point[axis] = scan_.coordinate(tokenInside("vertex", v, pointCount_));
-  // Whatever the order in the keyword, a normal comes before a colour.
+  // The normal comes before the colour, also if the keyword has them the other way round.
   const int firstOfColor = hasNormals_ ? 3 : 0;
   Vec3d color = Vec3d::Zero();
   int extra = 0;
@@ -146,7 +147,8 @@ void OffParser::readFace(std::int64_t f) {
   scan_.nextLine();
 }
 
-// Three numbers, or four with alpha; a single one stands in a table of colours that nobody has.
+// Three numbers, or four with alpha. A single number is an index into a table of colours outside
+// the file; it is ignored.
 void OffParser::readFaceColor() {
   std::array<std::string_view, 4> tokens;
   std::size_t count = 0;

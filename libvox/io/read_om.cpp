@@ -1,7 +1,7 @@
-// OpenMesh's binary format, read by OpenMesh: the only file that includes it.
+// OpenMesh's binary format, read by OpenMesh. No other file includes OpenMesh.
 //
-// OpenMesh trusts its input, so it gets a copy that om_chunks has checked and cut down to header,
-// positions, connectivity and face status. Indices are checked as they come back.
+// OpenMesh trusts its input. So it gets a copy that om_chunks has checked and cut down to header,
+// positions, connectivity and face status. Indices are checked after OpenMesh has read them.
 
 #include "libvox/core/error.h"
 #include "libvox/io/mesh_formats.h"
@@ -27,7 +27,8 @@ namespace {
 
 namespace om = OpenMesh;
 
-// Collects what OpenMesh's reader delivers. Checks nothing: the reader runs to its end first.
+// Collects the elements that OpenMesh's reader delivers, without any checks: these follow when the
+// reader has finished.
 class Importer : public om::IO::BaseImporter {
  public:
   struct Halfedge {
@@ -38,9 +39,9 @@ class Importer : public om::IO::BaseImporter {
 
   std::vector<Vec3d> points;
   std::vector<Halfedge> halfedges;
-  std::vector<int> faceHalfedges;          // files since version 2: a half-edge per face
+  std::vector<int> faceHalfedges;          // since version 2: a half-edge of each face
   std::vector<bool> deletedFaces;          // empty, or one per face
-  std::vector<std::size_t> offsets = {0};  // files before version 2: polygons
+  std::vector<std::size_t> offsets = {0};  // before version 2: polygons
   std::vector<int> polygonVertices;
 
   om::VertexHandle add_vertex(const om::Vec3f& p) override { return add_vertex(om::Vec3d(p)); }
@@ -74,14 +75,14 @@ class Importer : public om::IO::BaseImporter {
     deletedFaces.back() = status.deleted();
   }
 
-  om::BaseKernel* kernel() override { return &kernel_; }  // the reader refuses to run without
+  om::BaseKernel* kernel() override { return &kernel_; }  // the reader needs one
   std::size_t n_vertices() const override { return points.size(); }
   std::size_t n_edges() const override { return halfedges.size() / 2; }
   std::size_t n_faces() const override {
     return std::max(faceHalfedges.size(), offsets.size() - 1);
   }
 
-  // The rest of the interface: attributes, which ChunkFilter has removed.
+  // The rest of the interface is for attributes, which ChunkFilter has removed.
   using V = om::VertexHandle;
   using H = om::HalfedgeHandle;
   using E = om::EdgeHandle;
@@ -141,7 +142,7 @@ class Silence {
   bool logged_, reported_;
 };
 
-// OpenMesh's reader is one global object with state: one file at a time.
+// OpenMesh's reader is a global object with state, so only one thread at a time may use it.
 bool readByOpenMesh(std::string file, Importer& importer) {
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
@@ -183,8 +184,8 @@ class FaceBuilder {
     mesh_.faceOffsets.push_back(mesh_.cornerCount());
   }
 
-  // Walks the half-edges of a face. Each serves one face once, so that damaged links cannot make
-  // the walk endless.
+  // Walks the half-edges of a face. Each half-edge may be met once in all, so that damaged links
+  // cannot make the walk endless.
   void addLoop(std::size_t f) {
     const int first = imported_.faceHalfedges[f];
     int h = first;

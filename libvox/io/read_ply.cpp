@@ -18,7 +18,7 @@ namespace vox {
 
 namespace {
 
-// What is being read, for messages.
+// The element that is being read, for messages.
 struct Place {
   const PlyElement* element = nullptr;
   std::uint64_t index = 0;
@@ -29,8 +29,8 @@ struct Place {
   }
 };
 
-// Numbers of a text body. An element may run over several lines, but starts on a new one: a missing
-// or additional number does not shift all that follow.
+// Numbers of a text body. An element may run over several lines, but must start on a new one; so a
+// missing or additional number does not shift all later elements.
 class TextNumbers {
  public:
   TextNumbers(TextScanner& scan, const Place& place) : scan_(scan), place_(place) {}
@@ -104,7 +104,7 @@ class BinaryNumbers {
   const Place& place_;
 };
 
-// Reads the elements that the header announces from a source of numbers.
+// Reads the elements of the header from a source of numbers.
 template <typename Numbers>
 class BodyParser {
  public:
@@ -113,7 +113,7 @@ class BodyParser {
 
   PolygonMesh parse() {
     for (const PlyElement& element : header_.elements) {
-      if (element.properties.empty()) continue;  // no bytes, however many there are
+      if (element.properties.empty()) continue;  // such elements have no bytes
       place_ = {&element, 0};
       for (; place_.index < element.count; ++place_.index) {
         readElement(element);
@@ -214,8 +214,8 @@ void BodyParser<Numbers>::readFace(const PlyProperty& list) {
   mesh_.faceOffsets.push_back(mesh_.cornerCount());
 }
 
-// Triangle i of a strip has corners i, i + 1, i + 2, every other one turned around. Triangles with
-// a repeated corner only stitch the strip together; they are no faces.
+// Triangle i of a strip has corners i, i + 1, i + 2; every other triangle is turned round.
+// Triangles with a repeated corner only connect parts of the strip: they become no faces.
 template <typename Numbers>
 void BodyParser<Numbers>::readStrips(const PlyProperty& list) {
   Index a = 0, b = 0;

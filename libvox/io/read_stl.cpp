@@ -1,4 +1,5 @@
-// STL, text and binary. Both store bare triangles; equal positions become one point.
+// STL, text and binary. Both store triangles without shared points; equal positions become one
+// point.
 //
 // Source: 3D Systems, "StereoLithography Interface Specification", 1989.
 
@@ -18,7 +19,7 @@ namespace {
 constexpr std::size_t kHeaderBytes = 84;  // 80 of comment, 4 of triangle count
 constexpr std::size_t kFacetBytes = 50;   // normal, 3 positions, 2 of attribute
 
-// Finds the point of a position, adding it if it is new: an open-addressing hash table of point
+// Finds the point with a position; adds it if there is none. An open-addressing hash table of point
 // indices, at most half full. -0 equals +0.
 class PointWelder {
  public:
@@ -48,7 +49,7 @@ class PointWelder {
     return h ^ (h >> 32);
   }
 
-  // The slot that holds this position, or the free one where it belongs.
+  // The slot of this position, or the free slot where it is to be put.
   std::size_t slotOf(const Vec3d& position) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t slot = hash(position) & mask;
@@ -70,7 +71,8 @@ std::uint64_t binaryTriangleCount(std::string_view data) {
   return loadNumber<std::uint32_t>(data.data() + kHeaderBytes - 4, std::endian::little);
 }
 
-// Whether the size is exactly what a binary header promises. Many binary files start with "solid".
+// Whether the content has exactly the size that a binary header gives. (The first word decides
+// nothing: many binary files start with "solid".)
 bool isBinary(std::string_view data) {
   return data.size() >= kHeaderBytes &&
          data.size() == kHeaderBytes + kFacetBytes * binaryTriangleCount(data);
@@ -86,7 +88,7 @@ PolygonMesh parseBinary(std::string_view data, const std::string& fileName) {
       Vec3d position;
       for (int axis = 0; axis < 3; ++axis, at += 4)
         position[axis] = static_cast<double>(loadNumber<float>(at, std::endian::little));
-      if (!position.allFinite())  // nan differs from itself: it cannot be welded
+      if (!position.allFinite())  // nan, unequal to itself, could not be welded
         throw InputError(fileName + ": triangle " + std::to_string(f) +
                          " has a coordinate that is not a finite number");
       mesh.faceVertices.push_back(welder.indexOf(position));
@@ -107,7 +109,7 @@ class TextParser {
 
   bool startsWithSolid() { return sameWord(scan_.tokenOnAnyLine(), "solid"); }
 
-  // Expects the first "solid" to be read.
+  // Precondition: the first "solid" has been read.
   PolygonMesh parse() {
     readSolid();
     for (auto token = scan_.tokenOnAnyLine(); !token.empty(); token = scan_.tokenOnAnyLine()) {
@@ -141,7 +143,8 @@ void TextParser::readSolid() {
   scan_.nextLine();
 }
 
-// normal nx ny nz outer loop vertex x y z ... endloop endfacet. Normals are often nan: not used.
+// The rest of "facet normal nx ny nz outer loop vertex x y z ... endloop endfacet". Normals are not
+// used; they are often nan.
 void TextParser::readFacet() {
   const std::size_t line = scan_.line();
   const std::size_t first = mesh_.faceVertices.size();
@@ -168,7 +171,7 @@ void TextParser::readVertex() {
   mesh_.faceVertices.push_back(welder_.indexOf(position));
 }
 
-// The next token, which must be there.
+// The next token. Fails if the text ends before it.
 std::string_view TextParser::next(std::string_view expected) {
   const std::string_view token = scan_.tokenOnAnyLine();
   if (token.empty())

@@ -1,4 +1,5 @@
-// OpenVDB files of any program, not trusted.
+// OpenVDB files from any program. They are not trusted, unless their hash shows that libvox wrote
+// them.
 
 #include "libvox/io/read_vdb.h"
 
@@ -15,8 +16,8 @@
 namespace vox {
 namespace {
 
-/// Whether a file is ours and as we wrote it.
-/// @throws InputError  it is ours, but damaged: it names the hash of its content
+/// Whether libvox wrote the file and the content still has the hash that the file states.
+/// @throws InputError  libvox wrote it, but the hash is wrong
 bool isTrusted(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string() + ": cannot be opened; check its permissions");
@@ -28,8 +29,8 @@ bool isTrusted(const std::filesystem::path& file) {
 
 using Visit = std::function<void(const openvdb::GridBase::Ptr&)>;
 
-/// Values of leaves are read when they are looked at. OpenVDB trusts what it reads and may abort
-/// on a damaged file.
+/// Reads a file; OpenVDB loads the values of leaves when they are first used. It trusts the file,
+/// and may abort if that is damaged.
 openvdb::MetaMap readOnDemand(const std::filesystem::path& file, const Visit& visit) {
   openvdb::io::File vdb(file.string());
   vdb.open(/*delayLoad=*/true);
@@ -37,7 +38,8 @@ openvdb::MetaMap readOnDemand(const std::filesystem::path& file, const Visit& vi
   return *vdb.getMetadata();
 }
 
-/// The whole file, through a stream that fails where it ends: OpenVDB itself would go on.
+/// Reads the whole file at once, through a stream that throws at the end of a truncated file.
+/// OpenVDB alone would not notice it.
 openvdb::MetaMap readWhole(const std::filesystem::path& file, const Visit& visit) {
   std::ifstream stream(file, std::ios::binary);
   stream.exceptions(std::ios::badbit | std::ios::failbit);
@@ -65,7 +67,7 @@ openvdb::MetaMap read(const std::filesystem::path& file, const Visit& visit) {
   }
 }
 
-/// Gives each grid a name of its own.
+/// Gives each grid a name that no other grid of the file has.
 class Namer {
  public:
   NamedGrid named(const openvdb::GridBase::Ptr& grid) {

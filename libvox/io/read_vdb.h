@@ -9,8 +9,8 @@
 
 namespace vox {
 
-/// A grid and the name that is its own within its file: "density", or "density[1]" for the second
-/// of that name.
+/// A grid with a name that is unique in its file: "density", or "density[1]" for the second grid
+/// called "density".
 struct NamedGrid {
   std::string name;
   openvdb::GridBase::Ptr grid;
@@ -21,12 +21,14 @@ struct VdbFile {
   openvdb::MetaMap metadata;  ///< of the file
 };
 
-/// Opens a .vdb file of any program. Values are loaded on demand from files of ours, whose hash
-/// shows them to be whole, and from large ones; of others all is read.
-/// @throws InputError  missing, not a .vdb file that OpenVDB can read, or one of ours but damaged
+/// Reads a .vdb file from any program. Values are loaded on demand if libvox wrote the file and its
+/// hash is right, or if it is larger than 256 MiB; otherwise the whole file is read now.
+/// @throws InputError  the file is missing, OpenVDB cannot read it, or libvox wrote it and it is
+///   damaged
 VdbFile readVdb(const std::filesystem::path& file);
 
-/// Looks at one grid after the other; those loaded on demand are in memory one at a time.
+/// Calls visit for one grid after the other. If values are loaded on demand (readVdb), only one
+/// grid is in memory at a time.
 /// @throws InputError  as readVdb
 void forEachGrid(const std::filesystem::path& file,
                  const std::function<void(const NamedGrid&)>& visit);

@@ -17,42 +17,45 @@
 
 namespace vox {
 
+/// One object of a scene. Options without a value are not set.
 struct SceneObject {
   std::string name;
-  PolygonMesh mesh;  ///< world units, the object's transform applied
+  PolygonMesh mesh;  ///< world space; the transform of the object has been applied
   SmoothingOptions smoothing = {};
   std::optional<StopRule> until = {};
   std::optional<Voxelize> voxelize = {};
   std::optional<TextureSpec> texture = {};
-  Eigen::Affine3d fromWorld = Eigen::Affine3d::Identity();  ///< undoes the object's transform
+  Eigen::Affine3d fromWorld = Eigen::Affine3d::Identity();  ///< inverse of the transform
 };
 
-/// What to convert, and how, as far as the scene says.
+/// Objects to convert, and the options of the scene. Options without a value are not set.
 struct Scene {
   std::optional<int> dim;           ///< [convert] dim: voxels along the longest side
   std::optional<double> voxelSize;  ///< [convert] voxel_size: world units
   std::optional<std::vector<GridKind>> grids;
   std::optional<double> weldTolerance;       ///< [convert] weld: world units
   std::optional<bool> strict;                ///< [convert] strict: no repair
-  VolumeOptions volume;                      ///< [convert] fill and what else it has
-  std::optional<StopRule> until;             ///< [convert] until: of objects that say nothing
-  std::optional<Voxelize> voxelize;          ///< [convert] voxelize: likewise
+  VolumeOptions volume;                      ///< [convert] fill and the other options of volumes
+  std::optional<StopRule> until;             ///< [convert] until: default for objects
+  std::optional<Voxelize> voxelize;          ///< [convert] voxelize: default for objects
   std::vector<SceneObject> objects;          ///< at least one
-  std::vector<std::filesystem::path> files;  ///< the input file, then the meshes it names
-  std::string inputHash;  ///< of the contents of these files; empty if there are none
+  std::vector<std::filesystem::path> files;  ///< the input file, then its meshes
+  std::string inputHash;                     ///< of the contents of `files`; empty without files
 };
 
 /// Reads a scene file (.toml, DESIGN section 11), or a mesh file as a scene of one object.
 ///
 /// Paths in a scene are relative to its folder. A transform scales, then rotates about x, y and z
-/// (degrees, in this order, counter-clockwise seen from the tip of the axis), then translates;
-/// where it mirrors, the faces are turned round so that they stay outward.
+/// (degrees, in this order, counter-clockwise seen from the tip of the axis), then translates. If
+/// it mirrors, the faces are turned round, so that their outside stays outside.
 ///
-/// @throws InputError  unreadable or malformed; unknown keys and wrong types are named as
-///   "FILE:LINE:COLUMN: ..."
+/// @throws InputError  the file is unreadable or malformed; for an unknown key or a wrong type the
+///   message starts with "FILE:LINE:COLUMN: "
 Scene readScene(const std::filesystem::path& file);
 
-/// The same from the content of a scene file; the name stands in messages and gives the folder.
+/// Reads a scene from the content of a scene file.
+/// @param file  gives the folder of paths in the scene, and is named in messages
+/// @throws InputError  as readScene
 Scene parseScene(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace vox

@@ -41,7 +41,7 @@ PolygonMesh readInlineMesh(const SceneText& text, const toml::node& points,
 struct Transform {
   Eigen::Affine3d map;
   Eigen::Affine3d inverse;
-  bool mirrors;  ///< an odd number of negative scales; the determinant itself may underflow
+  bool mirrors;  ///< an odd number of scales is negative (the determinant might underflow to 0)
 };
 
 Transform readTransform(const SceneText& text, const toml::table& table) {
@@ -125,7 +125,8 @@ SmoothingOptions readSmoothing(const SceneText& text, const toml::table& table, 
   return smoothing;
 }
 
-/// A value as parseTexture has it: numbers of a list with : between them, lists of a list with /.
+/// Value of a texture parameter as the text that setTexture reads: the numbers of a list are joined
+/// by ':', the lists of a list by '/'.
 std::string textureValue(const SceneText& text, const toml::node& node, const std::string& name) {
   if (node.is_string()) return requireString(text, node, name);
   if (node.is_number()) {
@@ -145,9 +146,9 @@ std::string textureValue(const SceneText& text, const toml::node& node, const st
   return value;
 }
 
-/// texture = "marble" or { kind = "marble", scale = 0.2 }
+/// Reads the value of a key `texture`: "marble", or { kind = "marble", scale = 0.2 }.
 TextureSpec readTexture(const SceneText& text, const toml::node& node) {
-  const toml::node* at = &node;  // what is wrong, if anything is
+  const toml::node* at = &node;  // the node that an error is about
   try {
     const auto* table = node.as_table();
     if (table == nullptr) return textureNamed(requireString(text, node, "texture"));
@@ -169,7 +170,6 @@ TextureSpec readTexture(const SceneText& text, const toml::node& node) {
 
 }  // namespace
 
-/// Reads a mesh and adds the content of its file to a hash.
 PolygonMesh readMeshInto(ContentHash& hash, const fs::path& file) {
   requireInputFile(file);
   requireMeshExtension(file);

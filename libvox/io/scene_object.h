@@ -12,8 +12,9 @@ namespace vox {
 /// @throws InputError  as readMesh
 PolygonMesh readMeshInto(ContentHash& hash, const std::filesystem::path& file);
 
-/// An [[object]] of a scene, with its mesh; names the mesh file among those of the scene.
-/// @throws InputError
+/// Reads an [[object]] of a scene, with its mesh. If that is in a file, appends the file to
+/// scene.files and adds its content to text.hash.
+/// @throws InputError  a key or value is wrong, or the mesh cannot be read
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene);
 
 }  // namespace vox

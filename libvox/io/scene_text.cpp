@@ -1,4 +1,4 @@
-// The values of a scene file, with messages that say where something is wrong.
+// Typed values of a scene file; messages give the place of an error.
 
 #include "libvox/io/scene_text.h"
 
@@ -11,7 +11,7 @@
 namespace vox {
 namespace {
 
-/// Refuses dotted keys so deep that the parser, which recurses, would run out of stack.
+/// Refuses dotted keys with so many parts that the recursive parser would run out of stack.
 void requireShallowKeys(const SceneText& text, std::string_view content) {
   constexpr int kMostDots = 1000;
   int dots = 0;

@@ -18,13 +18,13 @@
 
 namespace vox {
 
-/// A TOML document that knows its file name, for messages.
+/// A TOML document with the name of its file, for messages.
 struct SceneText {
   std::filesystem::path file;
   toml::table root;
-  ContentHash hash;  ///< of this file and the meshes it names
+  ContentHash hash;  ///< of this file, then of the meshes read for it
 
-  /// The document in the content of a file.
+  /// Parses the content of a file.
   /// @throws InputError  it is not TOML, or nested too deeply for the parser
   SceneText(const std::filesystem::path& name, std::string_view content);
 
@@ -37,33 +37,36 @@ struct SceneText {
   }
 };
 
-/// @param where  the table, for messages
-/// @throws InputError  the table has a key that is not known
+/// Checks that a table has only known keys.
+/// @param where  name of the table, for messages
+/// @throws InputError  it has another key
 void requireKnownKeys(const SceneText& text, const toml::table& table, const std::string& where,
                       std::initializer_list<std::string_view> known);
 
-// The value of a node.
-// @throws InputError  it has another type, or lies beyond what is said here
+// Each function returns the value of a node.
+// @param name  of the key, for messages
+// @throws InputError  the node has another type, or its value is out of range
 
 const toml::table& requireTable(const SceneText& text, const toml::node& node,
                                 const std::string& name);
 const toml::array& requireArray(const SceneText& text, const toml::node& node,
                                 const std::string& name);
-/// Without NUL.
+/// A string without NUL characters.
 std::string requireString(const SceneText& text, const toml::node& node, const std::string& name);
 bool requireBoolean(const SceneText& text, const toml::node& node, const std::string& name);
-/// Within kMaxCoordinate.
+/// A number of at most kMaxCoordinate in size.
 double requireNumber(const SceneText& text, const toml::node& node, const std::string& name);
-/// From low to high.
+/// A whole number from low to high.
 std::int64_t requireInteger(const SceneText& text, const toml::node& node, const std::string& name,
                             std::int64_t low, std::int64_t high);
 /// Three numbers.
 Vec3d requireVector(const SceneText& text, const toml::node& node, const std::string& name);
-/// "voxel" or { levels = 3, diameter = 4, angle = 5, flatness = 0.1 }, some of them.
+/// "voxel", or a table with one or more of { levels = 3, diameter = 4, angle = 5, flatness = 0.1 }.
 StopRule requireStopRule(const SceneText& text, const toml::node& node);
 
-/// A value by its name, if the table has the key.
-/// @throws InputError  there is none of that name
+/// Reads a value of an enumeration, given by its name. Leaves `value` unchanged if the table does
+/// not have the key.
+/// @throws InputError  no value has this name
 template <class Enum, std::size_t N>
 void readNamed(const SceneText& text, const toml::table& table, const char* key,
                const NameTable<Enum, N>& names, std::optional<Enum>& value) {

@@ -22,7 +22,7 @@ bool isDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// Whether a decimal literal that does not fit a double is too large rather than too small: the
+// Whether a decimal literal outside the range of doubles is too large, not too small: if the
 // decimal exponent of its first nonzero digit is positive.
 bool isTooLarge(std::string_view literal) {
   const std::size_t mantissaEnd = std::min(literal.find_first_of("eE"), literal.size());
@@ -69,7 +69,7 @@ bool TextScanner::continuesHere() const {
 void TextScanner::skipLineEnd() {
   const bool crLf = *at_ == '\r' && at_ + 1 != end_ && at_[1] == '\n';
   at_ += crLf ? 2 : 1;
-  if (at_ != end_) ++line_;  // the end of the text is not one more line
+  if (at_ != end_) ++line_;  // the end of the text starts no new line
 }
 
 std::string_view TextScanner::tokenOnAnyLine() {

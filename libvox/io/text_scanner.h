@@ -11,45 +11,50 @@
 
 namespace vox {
 
-/// `text` between quotes, fit for a one-line message: at most 40 characters, unprintable ones as ?.
+/// `text` in quotes for a one-line message: at most 40 characters of it, unprintable ones as '?'.
 std::string quote(std::string_view text);
 
-/// Cuts a text into lines and blank-separated tokens, converts numbers independently of the locale,
-/// and reports errors as "FILE:LINE: ...". A line ends with LF, CRLF or CR; a byte order mark at
-/// the start is skipped. Keeps a view: the text must outlive the scanner.
+/// Splits a text into lines and blank-separated tokens, and converts numbers independently of the
+/// locale. Errors are InputErrors "FILE:LINE: ...". A line ends with LF, CRLF or CR; a byte order
+/// mark at the start is skipped. The text must outlive the scanner.
 class TextScanner {
  public:
   struct Rules {
-    bool hashComments = false;   ///< # at the start of a token: a comment up to the end of the line
-    bool continuations = false;  ///< a backslash at the end of a line joins it with the next
+    bool hashComments = false;   ///< a # at the start of a token begins a comment
+    bool continuations = false;  ///< a backslash at the end of a line joins it with the next line
   };
 
   TextScanner(std::string_view text, std::string fileName, Rules rules);
 
-  /// Next token of the current line; empty at its end.
+  /// Next token of the current line; empty at the end of the line.
   std::string_view token();
 
   /// Next token of this or any later line; empty at the end of the text.
   std::string_view tokenOnAnyLine();
 
-  /// Skips to the start of the next line; false if the text ends first.
+  /// Skips to the start of the next line; returns false if there is none.
   bool nextLine();
 
-  /// What has not been read yet.
+  /// The text that has not been read yet.
   std::string_view rest() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
 
-  /// Line of the last token, from 1.
+  /// Number of the current line, from 1.
   std::size_t line() const { return line_; }
 
-  /// A finite number; a leading + is fine, numbers too small for a double become 0.
+  /// The finite number of a token. A leading + is accepted; numbers too small for a double become
+  /// 0.
+  /// @throws InputError  the token is none
   double number(std::string_view token) const;
 
-  /// A number of at most kMaxCoordinate in size.
+  /// The number of a token, at most kMaxCoordinate in size.
+  /// @throws InputError  the token is none
   double coordinate(std::string_view token) const;
 
-  /// A whole number.
+  /// The whole number of a token.
+  /// @throws InputError  the token is none
   std::int64_t integer(std::string_view token) const;
 
+  /// @throws InputError  always
   [[noreturn]] void fail(const std::string& what) const { failAt(line_, what); }
   [[noreturn]] void failAt(std::size_t line, const std::string& what) const;
 

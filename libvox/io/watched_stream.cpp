@@ -1,4 +1,4 @@
-// A buffer that passes everything on.
+// A buffer that passes all calls on to another one, and counts the bytes written.
 
 #include "libvox/io/watched_stream.h"
 
@@ -9,7 +9,7 @@ namespace vox {
 WatchedStream::WatchedStream(std::streambuf& inner, Progress& progress, std::uint64_t expectedBytes)
     : std::iostream(nullptr), buffer_(inner, progress, expectedBytes) {
   rdbuf(&buffer_);
-  exceptions(std::ios::badbit);  // lets what the buffer throws through
+  exceptions(std::ios::badbit);  // lets exceptions of the buffer through
 }
 
 WatchedStream::Buffer::Buffer(std::streambuf& inner, Progress& progress,

@@ -8,12 +8,12 @@
 
 namespace vox {
 
-/// Another stream, with what is written to it credited to the current stage of a progress, and the
-/// way to stop it: a write throws Cancelled. A write that fails throws IoError.
+/// A stream in front of a buffer. Bytes written are credited to the current stage of a Progress. A
+/// write throws Cancelled if the run is cancelled, and IoError if the buffer fails.
 class WatchedStream : public std::iostream {
  public:
-  /// @param inner          where everything goes; must outlive this
-  /// @param expectedBytes  that will be written in all, roughly
+  /// @param inner          receives all calls; must outlive this object
+  /// @param expectedBytes  estimate of all bytes that will be written
   WatchedStream(std::streambuf& inner, Progress& progress, std::uint64_t expectedBytes);
 
  private:

@@ -18,9 +18,9 @@ namespace vox {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
-constexpr int kDigits = 17;  // enough to tell any two doubles apart
+constexpr int kDigits = 17;  // enough to distinguish any two doubles
 
-// Collects output and hands it to the stream in large pieces.
+// Collects output and writes it to the stream in large pieces.
 class Writer {
  public:
   explicit Writer(std::ostream& out) : out_(out) { buffer_.reserve(kBufferBytes + 64); }
@@ -33,7 +33,7 @@ class Writer {
     appendLittleEndian(buffer_, number);
   }
 
-  // Marks a place where the buffer may be emptied.
+  // Called after an item: sends the buffer if it is full.
   void endItem() {
     if (buffer_.size() >= kBufferBytes) send();
   }
@@ -112,7 +112,7 @@ void writeOff(Writer& out, const PolygonMesh& mesh) {
   }
 }
 
-// The common types where they suffice: some readers know no others.
+// Whether wider types than the common ones are needed. Some readers know only the common ones.
 struct PlyTypes {
   bool wideCounts;   // uint rather than uchar
   bool wideIndices;  // uint rather than int
@@ -149,7 +149,7 @@ void writePly(Writer& out, const PolygonMesh& mesh) {
       out.binary(static_cast<std::uint8_t>(mesh.faceSize(f)));
     }
     for (const Index v : mesh.face(f)) {
-      out.binary(v);  // int and uint look the same below 2^31
+      out.binary(v);  // int and uint have the same bytes below 2^31
       out.endItem();
     }
   }

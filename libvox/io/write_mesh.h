@@ -9,12 +9,13 @@ namespace vox {
 
 enum class MeshFormat { kObj, kPly, kOff };
 
-/// Format that belongs to the extension of a file name: .obj, .ply or .off (case does not matter).
+/// Format for the extension of a file name: .obj, .ply or .off (case does not matter).
 /// @throws UsageError  another extension
 MeshFormat meshFormatFor(const std::filesystem::path& file);
 
-/// Writes a mesh. Text formats print 17 significant digits, PLY stores binary little-endian
-/// doubles, so reading back gives the same bits. Equal meshes give equal bytes.
+/// Writes the points and faces of a mesh. Text formats have 17 significant digits, PLY has binary
+/// little-endian doubles, so that reading the file gives the same bits. Equal meshes give equal
+/// bytes.
 /// @throws IoError  the stream fails
 void writeMesh(std::ostream& out, const PolygonMesh& mesh, MeshFormat format);
 

@@ -1,4 +1,4 @@
-// PNG through libpng's simplified interface, which reports errors without long jumps.
+// PNG by libpng's simplified interface, which reports errors without longjmp.
 
 #include "libvox/io/write_png.h"
 
@@ -18,7 +18,7 @@ bool isGrey(const Pixel& pixel) {
   return pixel[0] == pixel[1] && pixel[1] == pixel[2];
 }
 
-/// The channels of pixels that a PNG keeps, one after the other.
+/// The channels that the PNG is to have, pixel after pixel.
 std::vector<std::uint8_t> packed(const Image& image, bool colour, bool alpha) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(image.pixels.size() * (colour ? 3 : 1) + (alpha ? image.pixels.size() : 0));

@@ -6,8 +6,8 @@
 
 namespace vox {
 
-/// Writes a PNG of the smallest kind that loses nothing: grey or colour, with or without coverage,
-/// 8 bits each. Equal images give equal bytes.
+/// Writes a PNG in the smallest lossless form: grey or colour, with or without coverage, 8 bits
+/// each. Equal images give equal bytes.
 /// @throws IoError  the stream fails
 void writePng(std::ostream& stream, const Image& image);
 

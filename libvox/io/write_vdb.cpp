@@ -25,8 +25,8 @@ constexpr std::streamoff kUuidOffset = 21;
 constexpr std::size_t kUuidLength = 36;
 constexpr std::array<std::size_t, 4> kDashes = {8, 13, 18, 23};
 
-/// Gives access to the archive's writer for any seekable stream; openvdb::io::File writes to a path
-/// only and does not report a full disk.
+/// Makes Archive::write usable for any seekable stream. (openvdb::io::File writes to a path only
+/// and does not report a full disk.)
 class SeekableArchive : public openvdb::io::Archive {
  public:
   void writeTo(std::ostream& out, const openvdb::GridCPtrVec& grids,
@@ -56,7 +56,7 @@ Compression bestCompression() {
   return Compression::kPlain;
 }
 
-/// Hash of the whole stream with the UUID blanked out.
+/// Hash of the whole stream, with zeros in place of the UUID.
 std::string contentHash(std::istream& stream) {
   ContentHash hash;
   std::vector<char> buffer(1 << 20);
@@ -73,7 +73,7 @@ std::string contentHash(std::istream& stream) {
   return hash.hex();
 }
 
-/// A hash as UUID of version 8 (RFC 9562: content is the maker's own).
+/// A hash as a UUID of version 8, whose content is free (RFC 9562).
 std::string asUuid(std::string hex) {
   hex[12] = '8';
   hex[16] = 'a';
@@ -81,7 +81,7 @@ std::string asUuid(std::string hex) {
   return hex;
 }
 
-/// What stands at the place of the UUID; empty if it is none.
+/// The UUID of the file; empty if the text at its place is none.
 std::string readUuid(std::istream& stream) {
   std::string uuid(kUuidLength, '\0');
   stream.seekg(kUuidOffset);

@@ -10,25 +10,28 @@
 
 namespace vox {
 
-/// Writes grids in OpenVDB's own file format; values that are not active are left out. The random
-/// UUID of the file is replaced by a hash of everything else in it, so equal grids and metadata
-/// give equal bytes. Leaves are packed on all threads of the caller's arena.
+/// Writes grids in OpenVDB's file format, without the values of inactive voxels. A hash of
+/// everything else in the file replaces its random UUID, so that equal grids and metadata give
+/// equal bytes. Leaves are compressed on all threads of the caller's arena.
 ///
-/// @param compression  default: Blosc, or else zip, or else none, whichever the library has
-/// @param stream  empty, readable, writable and seekable: std::fstream, std::stringstream
+/// @param stream       empty, readable, writable and seekable: std::fstream, std::stringstream
+/// @param compression  default: the first of Blosc, zip and none that the OpenVDB library has
 /// @throws IoError  the stream fails
 void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& grids,
               const openvdb::MetaMap& fileMetadata, std::optional<Compression> compression = {});
 
-/// @throws UsageError  the library has no such compression
+/// Checks that the OpenVDB library has a compression.
+/// @throws UsageError  it does not
 void requireCompression(Compression compression);
 
-/// Whether a file still has the content its UUID was made from.
+/// Whether a .vdb file from writeVdb still has the content from which its UUID was made.
 enum class VdbContent {
-  kForeign,  ///< the UUID is none of ours
+  kForeign,  ///< the UUID shows that writeVdb did not write the file
   kIntact,
   kDamaged,
 };
+
+/// Compares the UUID of a file with its content. Reads the whole file if writeVdb wrote it.
 VdbContent vdbContent(std::istream& stream);
 
 }  // namespace vox
