@@ -15,7 +15,7 @@ class Error : public std::runtime_error {
  public:
   explicit Error(std::string message) : std::runtime_error(onOneLine(std::move(message))) {}
 
-  /// Exit code of a command that fails with this error (DESIGN section 10).
+  /// Exit code of a command that fails with this error (DESIGN section 15).
   virtual int exitCode() const noexcept = 0;
 };
 

@@ -18,7 +18,7 @@ namespace vox {
 /// The set of active voxels to which all tasks add. It consists of the OpenVDB nodes that become
 /// the tree of the grid, so that nothing is copied or merged at the end. A page is an inner node of
 /// 128^3 voxels with a lock of its own; tasks OR whole leaves into it. Order does not matter, so
-/// the voxels do not depend on threads. Source: DESIGN section 8.
+/// the voxels do not depend on threads. Source: DESIGN section 11.
 class ActiveVoxels {
  public:
   /// @param memoryLimit  bytes that the nodes may take; 0: no limit

@@ -4,7 +4,7 @@
 
 namespace vox {
 
-/// The grids a conversion can make (DESIGN section 9).
+/// The grids a conversion can make (DESIGN section 14).
 enum class GridKind {
   kDensity,  ///< Float fog volume, 1 at active voxels
   kMask,     ///< the active voxels

@@ -34,7 +34,7 @@ struct VectorSum {
 };
 
 /// Mean vectors (colours, or normals) of samples at active voxels. The sums are integers, so the
-/// means depend neither on the order of the samples nor on threads. Source: DESIGN section 8.
+/// means depend neither on the order of the samples nor on threads. Source: DESIGN section 12.
 class VoxelMeans {
  public:
   /// @param voxels  the active voxels, without active tiles; the tree must stay alive and unchanged

@@ -1,5 +1,5 @@
 // What viewers will not show. The facts about Blender are those of version 3.4.1 (DESIGN section
-// 9).
+// 14).
 
 #include "libvox/inspect/lint.h"
 

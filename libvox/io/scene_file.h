@@ -43,7 +43,7 @@ struct Scene {
   std::string inputHash;                     ///< of the contents of `files`; empty without files
 };
 
-/// Reads a scene file (.toml, DESIGN section 11), or a mesh file as a scene of one object.
+/// Reads a scene file (.toml, DESIGN section 15), or a mesh file as a scene of one object.
 ///
 /// Paths in a scene are relative to its folder. A transform scales, then rotates about x, y and z
 /// (degrees, in this order, counter-clockwise seen from the tip of the axis), then translates. If

@@ -20,7 +20,7 @@ inline constexpr std::uint8_t kAllQuadrants = 0xF;
 /// vertex has become N x N vertices, N = 2^k, at
 ///   sum_ab w_a(i) w_b(j) P_ab,  w_-(i) = (N-i)(N-i-1) / 2N^2,  w_+(i) = i(i+1) / 2N^2,
 ///   w_0 = 1 - w_- - w_+,
-/// for i, j = 0 .. N - 1. Source: DESIGN section 5.
+/// for i, j = 0 .. N - 1. Source: DESIGN section 6.
 struct Patch {
   std::array<std::array<Vec3d, 3>, 3> points;  ///< [u][v]; the vertex itself is points[1][1]
   /// The faces that exist. Of a missing face (at a free boundary), the corner opposite the vertex

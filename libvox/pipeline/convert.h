@@ -79,8 +79,8 @@ struct Conversion {
 /// grids. An object is subdivided until its faces meet the vertex-conversion criterion, or to a
 /// stop rule and its polygons scanned (choose.h); either way the active voxels 6-separate the two
 /// sides of each surface, or 26-separate them if that is asked for. Grids carry the metadata of
-/// DESIGN section 9. The result does not depend on the number of threads, nor on how the surface is
-/// cut into submeshes. The progress keeps a share for writing the grids.
+/// DESIGN section 14. The result does not depend on the number of threads, nor on how the surface
+/// is cut into submeshes. The progress keeps a share for writing the grids.
 ///
 /// @throws UsageError  dim, voxel size, gain, number of threads, stop rule, smoothing or weld
 ///   tolerance is nonsense; vertex conversion is asked for where it cannot be; a texture is asked

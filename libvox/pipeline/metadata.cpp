@@ -1,4 +1,4 @@
-// What a file says of how it was made (DESIGN section 9).
+// What a file says of how it was made (DESIGN section 14).
 
 #include "libvox/pipeline/metadata.h"
 

@@ -26,7 +26,7 @@ struct LiftReport {
 /// @throws MeshError   a vertex is not an interior one with one ring of 3 or more faces, or does
 ///   not exist; the message names it
 /// @throws LimitError  coordinates so large that sums of them overflow
-/// Source: paper section 2.2; DESIGN section 4.
+/// Source: paper section 2.2; DESIGN section 5.
 PolygonMesh lift(PolygonMesh mesh, const Adjacency& adjacency, std::span<const Index> vertices,
                  LiftReport& report);
 

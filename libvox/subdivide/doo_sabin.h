@@ -26,7 +26,7 @@ SubdivisionLevel baseLevel(PolygonMesh mesh, BoundaryRule rule = BoundaryRule::k
 /// independent of thread count.
 ///
 /// @throws LimitError  the level would have 2^32 - 1 corners or more
-/// Source: paper sections 2.1 and 2.3; DESIGN sections 4 and 5.
+/// Source: paper sections 2.1 and 2.3; DESIGN sections 4 and 6.
 SubdivisionLevel nextLevel(const SubdivisionLevel& level, std::vector<Vec3d> image);
 
 /// K Doo-Sabin steps.

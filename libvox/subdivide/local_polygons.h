@@ -19,7 +19,7 @@ namespace vox {
 /// its E-face, the first corner of a fan its V-face. At an extended boundary the row of boundary
 /// points beside a vertex is as long as the vertex's own.
 ///
-/// One object per thread. Source: DESIGN section 5.
+/// One object per thread. Source: DESIGN section 10.
 class LocalPolygons {
  public:
   /// @param base  level 0, in index space: an oriented manifold with one fan of faces at each

@@ -18,7 +18,7 @@ namespace vox {
 /// at an extended boundary the boundary points of its edge. So over submeshes that cover the mesh
 /// once, every vertex is emitted exactly once, and its bits do not depend on how the mesh is cut.
 ///
-/// One object per thread. Source: paper section 4; DESIGN section 5.
+/// One object per thread. Source: paper section 4; DESIGN section 7.
 class LocalSurface {
  public:
   /// @param base  level 0, in index space: an oriented manifold with one fan of faces at each

@@ -11,7 +11,7 @@ namespace vox {
 // an L-inf diameter of at most kVertexConversionSpan. The diameter, not only edges and one
 // diagonal: where the other corners of a face go on to deeper levels, their descendants stay in its
 // convex hull, so whatever faces stitch the levels together fit into a voxel too. All lengths in
-// voxels. Source: paper section 5; DESIGN sections 5 and 6.
+// voxels. Source: paper section 5; DESIGN sections 8 and 9.
 
 /// L-inf size of a face that vertex conversion accepts. The guarantee holds up to 1; the rest is
 /// for rounding.
@@ -35,7 +35,7 @@ inline double diameter(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec
   return (high - low).maxCoeff();
 }
 
-/// The C(n) of DESIGN section 5 for a face of n sides: faces k levels down measure at most 2^-k
+/// The C(n) of DESIGN section 8 for a face of n sides: faces k levels down measure at most 2^-k
 /// times the largest diameter around a vertex, times the largest C around it.
 double contraction(std::size_t sides);
 
@@ -50,7 +50,7 @@ int patchDepth(const Patch& patch);
 
 /// Levels for a vertex of the boundary curve of an extended surface, from the largest diameter of
 /// the strip faces it belongs to. A safe bound for strips of any number of sides: they shrink by
-/// less than 3 / 2^k (DESIGN section 5), as halves of faces of at most twice their size.
+/// less than 3 / 2^k (DESIGN section 8), as halves of faces of at most twice their size.
 int curveDepth(double stripDiameter);
 
 }  // namespace vox

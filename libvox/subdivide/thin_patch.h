@@ -15,7 +15,7 @@ namespace vox {
 /// it becomes, N = 2^levels, the outermost and some whole rows do for all of them: the strips
 /// between these rows can be filled from around with faces as small as vertex conversion needs
 /// (patch_strips.h), and what lies around the patch sees the outermost of all N x N vertices, as it
-/// would of a whole one (mixed depths, DESIGN section 6).
+/// would of a whole one (mixed depths, DESIGN section 9).
 struct ThinPatch {
   Patch patch;  ///< seen from one of its four sides: rows run along v
   int levels;   ///< of its N vertices along u and v; one more than the patch needs, or as many

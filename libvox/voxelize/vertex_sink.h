@@ -20,7 +20,7 @@ using LevelCounts = std::array<std::uint64_t, 128>;
 /// pocket that leads nowhere.) The active voxels 6-separate its sides.
 ///
 /// One per thread; the voxels do not depend on who gets which patch. Positions are exact up to
-/// kTileError (tile.h). Source: paper section 5, with the criterion of DESIGN section 6.
+/// kTileError (tile.h). Source: paper section 5, with the criterion of DESIGN section 9.
 class VertexSink : public SurfaceSink {
  public:
   explicit VertexSink(ActiveVoxels& grid) : cache_(grid) {}
