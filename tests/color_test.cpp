@@ -1,10 +1,11 @@
 #include "libvox/core/error.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/volume/texture.h"
+#include "tests/conversion.h"
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <sstream>
 
@@ -14,7 +15,7 @@ using openvdb::Coord;
 
 namespace {
 
-Scene sceneOf(const PolygonMesh& mesh, const char* texture) {
+Scene texturedScene(const PolygonMesh& mesh, const char* texture) {
   Scene scene;
   scene.objects.push_back({"object", mesh});
   scene.objects[0].texture = parseTexture(texture);
@@ -28,10 +29,6 @@ ConvertOptions colorAt(double voxelSize) {
   return options;
 }
 
-const openvdb::Vec3SGrid& colorOf(const Conversion& conversion) {
-  return dynamic_cast<const openvdb::Vec3SGrid&>(*conversion.grids.at(0));
-}
-
 const openvdb::MaskGrid& maskOf(const Conversion& conversion) {
   return dynamic_cast<const openvdb::MaskGrid&>(*conversion.grids.at(1));
 }
@@ -40,17 +37,12 @@ Vec3d asDoubles(const openvdb::Vec3f& color) {
   return Vec3d(color.x(), color.y(), color.z());
 }
 
-PolygonMesh moved(PolygonMesh mesh, const Vec3d& by) {
-  for (Vec3d& p : mesh.points) p += by;
-  return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("every active voxel, and no other, has the texture's colour at its centre", "[color]") {
   const PolygonMesh mesh = test::dodecahedron();
-  const Conversion conversion = convert(sceneOf(mesh, "marble"), colorAt(0.1));
-  const openvdb::Vec3SGrid& color = colorOf(conversion);
+  const Conversion conversion = convert(texturedScene(mesh, "marble"), colorAt(0.1));
+  const openvdb::Vec3SGrid& color = test::colorOf(conversion);
 
   CHECK(color.getName() == "color");
   CHECK(color.background() == openvdb::Vec3f(0));
@@ -74,21 +66,21 @@ TEST_CASE("a texture moves with its object, or stays in the world", "[color]") {
     CAPTURE(inWorld);
     const char* const texture =
         inWorld ? "checker:scale=3,space=world" : "checker:scale=3,space=object";
-    const Conversion before = convert(sceneOf(test::cube(), texture), colorAt(0.25));
-    Scene scene = sceneOf(moved(test::cube(), shift), texture);
+    const Conversion before = convert(texturedScene(test::cube(), texture), colorAt(0.25));
+    Scene scene = texturedScene(test::moved(test::cube(), shift), texture);
     scene.objects[0].fromWorld = Eigen::Translation3d(-shift);
     const Conversion after = convert(scene, colorAt(0.25));
     std::size_t different = 0;
-    for (auto voxel = colorOf(before).cbeginValueOn(); voxel; ++voxel)
-      different += colorOf(after).tree().getValue(voxel.getCoord() + shiftIndex) != *voxel;
-    CHECK(colorOf(before).activeVoxelCount() == colorOf(after).activeVoxelCount());
+    for (auto voxel = test::colorOf(before).cbeginValueOn(); voxel; ++voxel)
+      different += test::colorOf(after).tree().getValue(voxel.getCoord() + shiftIndex) != *voxel;
+    CHECK(test::colorOf(before).activeVoxelCount() == test::colorOf(after).activeVoxelCount());
     CHECK((different == 0) == !inWorld);
   }
 }
 
 TEST_CASE("where objects share voxels, the colour of the later one stays", "[color]") {
   const PolygonMesh first = test::cube();
-  const PolygonMesh second = moved(test::cube(), Vec3d(0.5, 0.25, 0));
+  const PolygonMesh second = test::moved(test::cube(), Vec3d(0.5, 0.25, 0));
   const auto red = parseTexture("checker:colors=1:0:0/1:0:0");
   const auto blue = parseTexture("checker:colors=0:0:1/0:0:1");
   Scene scene;
@@ -97,13 +89,13 @@ TEST_CASE("where objects share voxels, the colour of the later one stays", "[col
   scene.objects[0].texture = red;
   scene.objects[1].texture = blue;
   const Conversion both = convert(scene, colorAt(0.1));
-  const Conversion onlyFirst = convert(sceneOf(first, "checker"), colorAt(0.1));
-  const Conversion onlySecond = convert(sceneOf(second, "checker"), colorAt(0.1));
+  const Conversion onlyFirst = convert(texturedScene(first, "checker"), colorAt(0.1));
+  const Conversion onlySecond = convert(texturedScene(second, "checker"), colorAt(0.1));
 
   const auto& inFirst = maskOf(onlyFirst).tree();
   const auto& inSecond = maskOf(onlySecond).tree();
   std::size_t shared = 0;
-  for (auto voxel = colorOf(both).cbeginValueOn(); voxel; ++voxel) {
+  for (auto voxel = test::colorOf(both).cbeginValueOn(); voxel; ++voxel) {
     const bool later = inSecond.isValueOn(voxel.getCoord());
     const bool earlier = inFirst.isValueOn(voxel.getCoord());
     REQUIRE((later || earlier));
@@ -126,20 +118,20 @@ TEST_CASE("a texture that is asked for comes before the scene's and brings its g
   ConvertOptions options;
   options.dim = 16;
   options.texture = parseTexture("checker:colors=0:1:0/0:1:0");
-  const Conversion conversion = convert(sceneOf(test::cube(), "marble"), options);
+  const Conversion conversion = convert(texturedScene(test::cube(), "marble"), options);
   REQUIRE(conversion.grids.size() == 2);
   CHECK(conversion.grids[0]->getName() == "density");
   const auto& color = dynamic_cast<const openvdb::Vec3SGrid&>(*conversion.grids[1]);
   for (auto voxel = color.cbeginValueOn(); voxel; ++voxel) CHECK(*voxel == openvdb::Vec3f(0, 1, 0));
 
   options.grids = std::vector{GridKind::kMask};
-  CHECK_THROWS_WITH(convert(sceneOf(test::cube(), "marble"), options),
+  CHECK_THROWS_WITH(convert(texturedScene(test::cube(), "marble"), options),
                     Contains("--texture needs color among --grids"));
 }
 
 TEST_CASE("colours do not depend on threads", "[color][parallel]") {
   const auto bytes = [](int threads) {
-    Scene scene = sceneOf(test::torusGrid(12, 6), "marble");
+    Scene scene = texturedScene(test::torusGrid(12, 6), "marble");
     scene.objects.push_back({"second", test::cube()});
     scene.objects[1].texture = parseTexture("brick");
     ConvertOptions options = colorAt(0.05);

@@ -3,16 +3,17 @@
 #include "libvox/core/numbered.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/active_voxels.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/grid/voxel.h"
 #include "libvox/grid/voxel_means.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/subdivide/doo_sabin.h"
+#include "tests/conversion.h"
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <array>
@@ -42,11 +43,7 @@ Conversion convertColor(const PolygonMesh& mesh, const ConvertOptions& more, int
   return convert(scene, options);
 }
 
-const openvdb::Vec3SGrid& colorOf(const Conversion& conversion) {
-  return dynamic_cast<const openvdb::Vec3SGrid&>(*conversion.grids.at(0));
-}
-
-PolygonMesh scaled(PolygonMesh mesh, double scale) {
+PolygonMesh squashed(PolygonMesh mesh, double scale) {
   for (Vec3d& p : mesh.points) p = scale * p.cwiseProduct(Vec3d(1, 1.1, 0.9));
   return mesh;
 }
@@ -113,7 +110,7 @@ TEST_CASE("colours that follow the place still do on the smooth surface", "[colo
         const Vec3d low = usedBox(shape.mesh).low / conversion.report.voxelSize;
         double furthest = 0;
         std::size_t far = 0;
-        for (auto voxel = colorOf(conversion).cbeginValueOn(); voxel; ++voxel) {
+        for (auto voxel = test::colorOf(conversion).cbeginValueOn(); voxel; ++voxel) {
           const Coord at = voxel.getCoord();
           const Vec3d expected = (Vec3d(at.x(), at.y(), at.z()) - low) / kDim;
           const Vec3d found(voxel->x(), voxel->y(), voxel->z());
@@ -127,7 +124,7 @@ TEST_CASE("colours that follow the place still do on the smooth surface", "[colo
         // graze.
         const bool sampled = std::string(until) == "voxel";
         CHECK(furthest < 1.6);
-        CHECK(far <= colorOf(conversion).activeVoxelCount() / (sampled ? 10 : 5));
+        CHECK(far <= test::colorOf(conversion).activeVoxelCount() / (sampled ? 10 : 5));
       }
 }
 
@@ -140,7 +137,7 @@ TEST_CASE("the middle of a face keeps the face's colour", "[color][golden]") {
     // The surface touches the middles of the cube's faces, flat.
     const Vec3d centre = test::faceCentroid(cube, f) / conversion.report.voxelSize;
     const auto found =
-        colorOf(conversion)
+        test::colorOf(conversion)
             .tree()
             .getValue(Coord(static_cast<int>(centre.x()), static_cast<int>(centre.y()),
                             static_cast<int>(centre.z())));
@@ -156,7 +153,7 @@ TEST_CASE("the colours of points come before those of faces", "[color]") {
   cube.pointColors.assign(8, Vec3f(0, 1, 0));
   cube.faceColors.assign(6, Vec3f(1, 0, 0));
   const Conversion conversion = convertColor(cube, {}, 20);
-  for (auto voxel = colorOf(conversion).cbeginValueOn(); voxel; ++voxel)
+  for (auto voxel = test::colorOf(conversion).cbeginValueOn(); voxel; ++voxel)
     CHECK(*voxel == openvdb::Vec3f(0, 1, 0));
 }
 
@@ -166,7 +163,7 @@ TEST_CASE("vertices and colours have the same bits however the mesh is cut", "[c
   for (const auto& shape : shapes)
     for (const BoundaryRule rule : {BoundaryRule::kExtend, BoundaryRule::kFree}) {
       CAPTURE(shape.name);
-      const PolygonMesh mesh = scaled(coloredByPlace(shape.mesh), 4);
+      const PolygonMesh mesh = squashed(coloredByPlace(shape.mesh), 4);
       const SubdivisionLevel base = baseLevel(mesh, rule);
       const std::vector<Vec3d> colors = cornerColors(mesh);
       Collector whole, parts;
@@ -183,7 +180,7 @@ TEST_CASE("vertices and colours have the same bits however the mesh is cut", "[c
 TEST_CASE("around a face of many sides samples reach the voxels with the colours of their place",
           "[color][property]") {
   for (const PolygonMesh& shape : {test::prism(300), test::pyramid(300)}) {
-    const PolygonMesh mesh = coloredByPlace(scaled(shape, 40));
+    const PolygonMesh mesh = coloredByPlace(squashed(shape, 40));
     const Box box = usedBox(mesh);
     const SubdivisionLevel base = baseLevel(mesh);
     ActiveVoxels grid;

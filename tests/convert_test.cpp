@@ -2,13 +2,15 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/subdivide/doo_sabin.h"
+#include "tests/conversion.h"
 #include "tests/reference.h"
+#include "tests/scenes.h"
 #include "tests/shapes.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <chrono>
@@ -23,12 +25,6 @@ using openvdb::Coord;
 
 namespace {
 
-Scene sceneOf(const PolygonMesh& mesh) {
-  Scene scene;
-  scene.objects.push_back({"object", mesh});
-  return scene;
-}
-
 ConvertOptions maskAt(int dim) {
   ConvertOptions options;
   options.dim = dim;
@@ -36,21 +32,11 @@ ConvertOptions maskAt(int dim) {
   return options;
 }
 
-const openvdb::MaskGrid& maskOf(const Conversion& conversion) {
-  return dynamic_cast<const openvdb::MaskGrid&>(*conversion.grids.at(0));
-}
-
 /// The mesh whose vertices were converted, in voxels.
 PolygonMesh refinedIndex(const PolygonMesh& mesh, const Conversion& conversion) {
   PolygonMesh refined = subdivide(baseLevel(mesh), conversion.report.objects[0].levels).mesh;
   for (Vec3d& p : refined.points) p /= conversion.report.voxelSize;
   return refined;
-}
-
-std::string bytesOf(const Conversion& conversion) {
-  std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
-  writeGrids(stream, conversion);
-  return stream.str();
 }
 
 /// Whether a path of inactive voxels, face to face, leads from one voxel to another within a box.
@@ -83,9 +69,9 @@ TEST_CASE("no path of inactive voxels joins the sides of a closed surface",
     for (const int dim : {8, 13}) {
       if (!shape.closed) continue;
       CAPTURE(shape.name, dim);
-      const Conversion conversion = convert(sceneOf(shape.mesh), maskAt(dim));
+      const Conversion conversion = convert(test::oneObject(shape.mesh), maskAt(dim));
       const test::Sides sides =
-          test::sidesOf(refinedIndex(shape.mesh, conversion), maskOf(conversion));
+          test::sidesOf(refinedIndex(shape.mesh, conversion), test::maskOf(conversion));
       CHECK(sides.outside > 0);
       CHECK((sides.inside > 0 || dim < 13));
       CHECK(sides.leaks == 0);
@@ -100,11 +86,11 @@ TEST_CASE("no path of inactive voxels joins the sides of a long thin bar", "[pip
     for (Vec3d& p : bar.points)
       p = Vec3d(12 * p.x() * std::cos(angle) - p.y() * std::sin(angle),
                 12 * p.x() * std::sin(angle) + p.y() * std::cos(angle), p.z());
-    const Conversion conversion = convert(sceneOf(bar), maskAt(45));
+    const Conversion conversion = convert(test::oneObject(bar), maskAt(45));
     constexpr int kLevels = 4;  // the surface, near enough: within 0.1 voxels
     PolygonMesh surface = subdivide(baseLevel(bar), kLevels).mesh;
     for (Vec3d& p : surface.points) p /= conversion.report.voxelSize;
-    const test::Sides sides = test::sidesOf(surface, maskOf(conversion));
+    const test::Sides sides = test::sidesOf(surface, test::maskOf(conversion));
     CHECK(sides.outside > 0);
     CHECK(sides.inside > 0);
     CHECK(sides.leaks == 0);
@@ -116,7 +102,7 @@ TEST_CASE("of a needle few vertices are made, and none of it is lost", "[pipelin
                                           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
   ConvertOptions options;
   options.dim = 3000;
-  const Conversion conversion = convert(sceneOf(needle), options);
+  const Conversion conversion = convert(test::oneObject(needle), options);
   const ObjectReport& part = conversion.report.objects[0];
   CHECK(part.vertices < 150 * part.activeVoxels);
   // A smoothed tetrahedron keeps more than half of its length.
@@ -126,9 +112,9 @@ TEST_CASE("of a needle few vertices are made, and none of it is lost", "[pipelin
 TEST_CASE("removing a voxel that the surface needs opens a leak that the check sees",
           "[pipeline]") {
   const PolygonMesh shape = test::dodecahedron();
-  const Conversion conversion = convert(sceneOf(shape), maskAt(9));
+  const Conversion conversion = convert(test::oneObject(shape), maskAt(9));
   const PolygonMesh refined = refinedIndex(shape, conversion);
-  const openvdb::MaskGrid& mask = maskOf(conversion);
+  const openvdb::MaskGrid& mask = test::maskOf(conversion);
   std::size_t tried = 0;
   std::size_t opened = 0;
   for (auto voxel = mask.cbeginValueOn(); voxel; ++voxel) {
@@ -144,55 +130,55 @@ TEST_CASE("an open sheet has no hole from one side to the other", "[pipeline][pr
   const BoundaryRule rule = GENERATE(BoundaryRule::kFree, BoundaryRule::kExtend);
   ConvertOptions options = maskAt(40);
   options.smoothing.boundary = rule;
-  const Conversion conversion = convert(sceneOf(test::sheet(5, 4)), options);
+  const Conversion conversion = convert(test::oneObject(test::sheet(5, 4)), options);
   // Plain Doo-Sabin ends half a face inside the boundary; look at the columns within.
   const double unit = 1 / conversion.report.voxelSize;
   const auto at = [&](double x) { return static_cast<int>(x * unit); };
   const openvdb::CoordBBox box(at(1), at(1), at(-1), at(4), at(3), at(1));
-  CHECK_FALSE(inactivePath(maskOf(conversion), box, box.min(), box.max()));
+  CHECK_FALSE(inactivePath(test::maskOf(conversion), box, box.min(), box.max()));
 }
 
 TEST_CASE("inactive voxels inside and outside a closed surface are not connected",
           "[pipeline][property]") {
   for (const auto& mesh : {test::cube(), test::dodecahedron(), test::prism(12)}) {
-    const Conversion conversion = convert(sceneOf(mesh), maskAt(40));
-    openvdb::CoordBBox box = maskOf(conversion).evalActiveVoxelBoundingBox();
+    const Conversion conversion = convert(test::oneObject(mesh), maskAt(40));
+    openvdb::CoordBBox box = test::maskOf(conversion).evalActiveVoxelBoundingBox();
     box.expand(1);
-    CHECK_FALSE(maskOf(conversion).tree().isValueOn({0, 0, 0}));
-    CHECK_FALSE(inactivePath(maskOf(conversion), box, box.min(), {0, 0, 0}));
-    CHECK(inactivePath(maskOf(conversion), box, box.min(), box.max()));
+    CHECK_FALSE(test::maskOf(conversion).tree().isValueOn({0, 0, 0}));
+    CHECK_FALSE(inactivePath(test::maskOf(conversion), box, box.min(), {0, 0, 0}));
+    CHECK(inactivePath(test::maskOf(conversion), box, box.min(), box.max()));
   }
 }
 
 TEST_CASE("a smoothed cube passes through the centres of its faces", "[pipeline][golden]") {
-  const Conversion conversion = convert(sceneOf(test::cube()), maskAt(64));
+  const Conversion conversion = convert(test::oneObject(test::cube()), maskAt(64));
   CHECK(conversion.report.voxelSize == 2.0 / 64);
   for (int axis = 0; axis < 3; ++axis)
     for (const int end : {-32, 32}) {
       Coord centre(0, 0, 0);
       centre[axis] = end;
-      CHECK(maskOf(conversion).tree().isValueOn(centre));
+      CHECK(test::maskOf(conversion).tree().isValueOn(centre));
     }
-  CHECK_FALSE(maskOf(conversion).tree().isValueOn({32, 32, 32}));
+  CHECK_FALSE(test::maskOf(conversion).tree().isValueOn({32, 32, 32}));
 }
 
 TEST_CASE("objects of a scene share one grid", "[pipeline]") {
   PolygonMesh far = test::cube();
   for (Vec3d& p : far.points) p.x() += 10;
-  Scene both = sceneOf(test::cube());
+  Scene both = test::oneObject(test::cube());
   both.objects.push_back({"far", far});
   ConvertOptions options = maskAt(1);
   options.dim.reset();
   options.voxelSize = 0.125;
-  const auto near = convert(sceneOf(test::cube()), options).report.activeVoxels;
+  const auto near = convert(test::oneObject(test::cube()), options).report.activeVoxels;
   const Conversion conversion = convert(both, options);
   CHECK(conversion.report.activeVoxels == 2 * near);
-  CHECK(maskOf(conversion).tree().isValueOn({8, 0, 0}));
-  CHECK(maskOf(conversion).tree().isValueOn({88, 0, 0}));
+  CHECK(test::maskOf(conversion).tree().isValueOn({8, 0, 0}));
+  CHECK(test::maskOf(conversion).tree().isValueOn({88, 0, 0}));
 }
 
 TEST_CASE("options come before the scene, the scene before the defaults", "[pipeline]") {
-  Scene scene = sceneOf(test::cube());
+  Scene scene = test::oneObject(test::cube());
   CHECK(convert(scene, {}).report.voxelSize == 2.0 / kDefaultDim);
   scene.voxelSize = 0.5;
   scene.grids = std::vector{GridKind::kMask};
@@ -203,32 +189,32 @@ TEST_CASE("options come before the scene, the scene before the defaults", "[pipe
 }
 
 TEST_CASE("two runs, and any number of threads, give the same bytes", "[pipeline][parallel]") {
-  Scene scene = sceneOf(test::shuffled(test::torusGrid(24, 12), 5));
+  Scene scene = test::oneObject(test::shuffled(test::torusGrid(24, 12), 5));
   scene.objects.push_back({"more", test::prism(9)});
   ConvertOptions options;
   options.dim = 200;
   options.grids = std::vector{GridKind::kDensity, GridKind::kMask};
-  const std::string first = bytesOf(convert(scene, options));
+  const std::string first = test::bytesOf(convert(scene, options));
   for (const int threads : {1, 2, 8}) {
     options.run.threads = threads;
-    CHECK(bytesOf(convert(scene, options)) == first);
+    CHECK(test::bytesOf(convert(scene, options)) == first);
   }
 }
 
 TEST_CASE("any number of threads gives the same bytes where patches are split",
           "[pipeline][parallel]") {
   ConvertOptions options = maskAt(1200);
-  const std::string first = bytesOf(convert(sceneOf(test::cube()), options));
+  const std::string first = test::bytesOf(convert(test::oneObject(test::cube()), options));
   for (const int threads : {1, 2, 8}) {
     options.run.threads = threads;
-    CHECK(bytesOf(convert(sceneOf(test::cube()), options)) == first);
+    CHECK(test::bytesOf(convert(test::oneObject(test::cube()), options)) == first);
   }
 }
 
 TEST_CASE("a conversion moves through its stages from 0 to 1, and writing is the last",
           "[pipeline]") {
   const test::TemporaryFolder folder;
-  Scene scene = sceneOf(test::torusGrid(24, 12));
+  Scene scene = test::oneObject(test::torusGrid(24, 12));
   scene.objects.push_back({"more", test::prism(9)});
   ConvertOptions options = maskAt(300);
   options.grids = std::vector{GridKind::kDensity, GridKind::kMask};
@@ -258,9 +244,9 @@ TEST_CASE("a conversion moves through its stages from 0 to 1, and writing is the
 TEST_CASE("a conversion that is watched writes the same bytes", "[pipeline]") {
   Progress progress([](double, const char*) {}, std::chrono::nanoseconds(0));
   ConvertOptions options = maskAt(100);
-  const std::string unwatched = bytesOf(convert(sceneOf(test::cube()), options));
+  const std::string unwatched = test::bytesOf(convert(test::oneObject(test::cube()), options));
   options.run.progress = &progress;
-  const Conversion conversion = convert(sceneOf(test::cube()), options);
+  const Conversion conversion = convert(test::oneObject(test::cube()), options);
   std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
   writeGrids(stream, conversion, &progress);
   CHECK(stream.str() == unwatched);
@@ -285,7 +271,8 @@ TEST_CASE("a conversion can be cancelled in each of its stages, and leaves nothi
       options.surface.localize = localize;
       options.run.progress = &progress;
       const auto work = [&] {
-        writeGrids(folder / "out.vdb", convert(sceneOf(test::cube()), options), false, &progress);
+        writeGrids(folder / "out.vdb", convert(test::oneObject(test::cube()), options), false,
+                   &progress);
       };
       CHECK_THROWS_AS(work(), Cancelled);
       CHECK(last == when);
@@ -294,14 +281,14 @@ TEST_CASE("a conversion can be cancelled in each of its stages, and leaves nothi
 }
 
 TEST_CASE("the numbers of a report add up", "[pipeline]") {
-  Scene scene = sceneOf(test::cube());
+  Scene scene = test::oneObject(test::cube());
   scene.objects.push_back({"the same", test::cube()});
   scene.objects.push_back({"another", test::dodecahedron()});
   ConvertOptions options = maskAt(60);
   options.run.threads = 2;
   const Conversion conversion = convert(scene, options);
   const ConvertReport& report = conversion.report;
-  CHECK(report.activeVoxels == maskOf(conversion).activeVoxelCount());
+  CHECK(report.activeVoxels == test::maskOf(conversion).activeVoxelCount());
   CHECK(report.threads == 2);
   std::uint64_t voxels = 0;
   for (const ObjectReport& object : report.objects) {
@@ -321,16 +308,16 @@ TEST_CASE("the numbers of a report add up", "[pipeline]") {
 TEST_CASE("a conversion that cannot fit is refused before it starts", "[pipeline][error]") {
   ConvertOptions options = maskAt(100000);
   options.run.maxMemory = std::uint64_t{1} << 28;
-  CHECK_THROWS_AS(convert(sceneOf(test::cube()), options), LimitError);
-  CHECK_THROWS_WITH(convert(sceneOf(test::cube()), options),
+  CHECK_THROWS_AS(convert(test::oneObject(test::cube()), options), LimitError);
+  CHECK_THROWS_WITH(convert(test::oneObject(test::cube()), options),
                     Contains("limit is 256.0 MiB") && Contains("--voxel-size"));
 }
 
 TEST_CASE("impossible requests are refused", "[pipeline][error]") {
-  CHECK_THROWS_AS(convert(sceneOf(test::cube()), maskAt(0)), UsageError);
+  CHECK_THROWS_AS(convert(test::oneObject(test::cube()), maskAt(0)), UsageError);
   ConvertOptions fine;
   fine.voxelSize = 1e-12;
-  CHECK_THROWS_AS(convert(sceneOf(test::cube()), fine), LimitError);
+  CHECK_THROWS_AS(convert(test::oneObject(test::cube()), fine), LimitError);
 }
 
 TEST_CASE("a small mesh scattered over much space is refused before it fills the memory",
@@ -345,7 +332,7 @@ TEST_CASE("a small mesh scattered over much space is refused before it fills the
   ConvertOptions options;
   options.voxelSize = 1;
   options.run.maxMemory = std::uint64_t{1} << 26;
-  CHECK_THROWS_WITH(convert(sceneOf(scattered), options), Contains("scattered"));
+  CHECK_THROWS_WITH(convert(test::oneObject(scattered), options), Contains("scattered"));
 }
 
 TEST_CASE("the resolution that a refusal advises works", "[pipeline][error]") {
@@ -354,7 +341,7 @@ TEST_CASE("the resolution that a refusal advises works", "[pipeline][error]") {
     ConvertOptions options = maskAt(4000);
     options.run.maxMemory = std::uint64_t{1} << 23;
     try {
-      convert(sceneOf(shape.mesh), options);
+      convert(test::oneObject(shape.mesh), options);
       FAIL("fits");
     } catch (const LimitError& error) {
       const std::string message = error.what();
@@ -362,17 +349,17 @@ TEST_CASE("the resolution that a refusal advises works", "[pipeline][error]") {
       const std::string key = "--dim ";
       options.dim = std::stoi(message.substr(message.find(key) + key.size()));
       CHECK(*options.dim > 20);
-      CHECK_NOTHROW(convert(sceneOf(shape.mesh), options));
+      CHECK_NOTHROW(convert(test::oneObject(shape.mesh), options));
     }
   }
 }
 
 TEST_CASE("an open mesh is converted with a warning if it may shrink", "[pipeline]") {
-  CHECK(convert(sceneOf(test::cube()), maskAt(8)).report.warnings.empty());
-  CHECK(convert(sceneOf(test::sheet(3, 3)), maskAt(8)).report.warnings.empty());
+  CHECK(convert(test::oneObject(test::cube()), maskAt(8)).report.warnings.empty());
+  CHECK(convert(test::oneObject(test::sheet(3, 3)), maskAt(8)).report.warnings.empty());
   ConvertOptions options = maskAt(8);
   options.smoothing.boundary = BoundaryRule::kFree;
-  const auto warnings = convert(sceneOf(test::sheet(3, 3)), options).report.warnings;
+  const auto warnings = convert(test::oneObject(test::sheet(3, 3)), options).report.warnings;
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Contains("object is open: it has 1 boundary loop"));
 }
@@ -380,12 +367,12 @@ TEST_CASE("an open mesh is converted with a warning if it may shrink", "[pipelin
 TEST_CASE("an interpolating surface passes through the corners of the cube", "[pipeline]") {
   ConvertOptions options = maskAt(64);
   options.smoothing.interpolate = Interpolate::kInterior;
-  const Conversion conversion = convert(sceneOf(test::cube()), options);
+  const Conversion conversion = convert(test::oneObject(test::cube()), options);
   // The vertices around the interpolated point lie within a voxel of it.
   const auto reaches = [&](int x, int y, int z) {
     const openvdb::Coord at(x, y, z);
     const openvdb::CoordBBox box(at.offsetBy(-1), at.offsetBy(1));
-    openvdb::MaskTree near(maskOf(conversion).tree());
+    openvdb::MaskTree near(test::maskOf(conversion).tree());
     near.clip(box);
     return !near.empty();
   };
@@ -400,7 +387,7 @@ TEST_CASE("an extended sheet reaches its boundary, and its corners if interpolat
   for (Vec3d& p : flat.points) p.z() = 0;
   ConvertOptions options = maskAt(40);
   const auto isOn = [&](int i, int j) {
-    return maskOf(convert(sceneOf(flat), options)).tree().isValueOn({i, j, 0});
+    return test::maskOf(convert(test::oneObject(flat), options)).tree().isValueOn({i, j, 0});
   };
   CHECK(isOn(20, 0));
   CHECK_FALSE(isOn(0, 0));
@@ -412,7 +399,7 @@ TEST_CASE("an extended sheet reaches its boundary, and its corners if interpolat
 TEST_CASE("contradictory arrays are refused, not followed", "[pipeline][error]") {
   PolygonMesh mesh = test::cube();
   mesh.faceVertices[5] = 50000000;
-  CHECK_THROWS_AS(convert(sceneOf(mesh), maskAt(8)), MeshError);
+  CHECK_THROWS_AS(convert(test::oneObject(mesh), maskAt(8)), MeshError);
 }
 
 TEST_CASE("flipping any faces changes no voxel", "[pipeline][property]") {
@@ -425,16 +412,17 @@ TEST_CASE("flipping any faces changes no voxel", "[pipeline][property]") {
   all.push_back({"cones", test::twoCones(), false});
   for (const auto& shape : all) {
     CAPTURE(shape.name);
-    const Conversion plain = convert(sceneOf(shape.mesh), maskAt(20));
+    const Conversion plain = convert(test::oneObject(shape.mesh), maskAt(20));
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
-      const Conversion other = convert(sceneOf(test::stirred(shape.mesh, 0.5, seed)), maskAt(20));
-      CHECK(maskOf(other).tree().hasSameTopology(maskOf(plain).tree()));
+      const Conversion other =
+          convert(test::oneObject(test::stirred(shape.mesh, 0.5, seed)), maskAt(20));
+      CHECK(test::maskOf(other).tree().hasSameTopology(test::maskOf(plain).tree()));
     }
   }
 }
 
 TEST_CASE("a Moebius strip is converted with a warning", "[pipeline]") {
-  const Conversion conversion = convert(sceneOf(test::moebius(12)), maskAt(60));
+  const Conversion conversion = convert(test::oneObject(test::moebius(12)), maskAt(60));
   CHECK(conversion.report.activeVoxels > 1000);
   REQUIRE_FALSE(conversion.report.warnings.empty());
   CHECK_THAT(conversion.report.warnings[0], Contains("one-sided"));
@@ -442,11 +430,11 @@ TEST_CASE("a Moebius strip is converted with a warning", "[pipeline]") {
 
 TEST_CASE("what repair did is told in one line", "[pipeline]") {
   const PolygonMesh cube = test::cube();
-  const Conversion conversion = convert(sceneOf(test::unwelded(cube)), maskAt(30));
+  const Conversion conversion = convert(test::oneObject(test::unwelded(cube)), maskAt(30));
   REQUIRE(conversion.report.warnings.size() == 1);
   CHECK_THAT(conversion.report.warnings[0], Contains("welded 16 vertices"));
-  const Conversion plain = convert(sceneOf(cube), maskAt(30));
-  CHECK(maskOf(conversion).tree().hasSameTopology(maskOf(plain).tree()));
+  const Conversion plain = convert(test::oneObject(cube), maskAt(30));
+  CHECK(test::maskOf(conversion).tree().hasSameTopology(test::maskOf(plain).tree()));
 }
 
 TEST_CASE("the weld tolerance is in world units, whatever the resolution", "[pipeline]") {
@@ -455,13 +443,13 @@ TEST_CASE("the weld tolerance is in world units, whatever the resolution", "[pip
   for (const int dim : {4, 400}) {  // voxels of 1/2 and of 1/200
     ConvertOptions options = maskAt(dim);
     options.weldTolerance = 0.01;
-    const Conversion conversion = convert(sceneOf(gaping), options);
+    const Conversion conversion = convert(test::oneObject(gaping), options);
     REQUIRE(conversion.report.warnings.size() == 1);
     CHECK_THAT(conversion.report.warnings[0], Contains("welded 16 vertices"));
     CHECK(conversion.grids[0]->metaValue<std::string>("vox_options").find(" weld=0.01") !=
           std::string::npos);
     options.weldTolerance = 0.0001;
-    const auto warnings = convert(sceneOf(gaping), options).report.warnings;
+    const auto warnings = convert(test::oneObject(gaping), options).report.warnings;
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("falls apart into 6 separate faces") && Contains("--weld"));
   }
@@ -470,6 +458,6 @@ TEST_CASE("the weld tolerance is in world units, whatever the resolution", "[pip
 TEST_CASE("strict conversion takes a sound mesh and refuses any other", "[pipeline][error]") {
   ConvertOptions options = maskAt(8);
   options.strict = true;
-  CHECK(convert(sceneOf(test::cube()), options).report.warnings.empty());
-  CHECK_THROWS_AS(convert(sceneOf(test::moebius(8)), options), MeshError);
+  CHECK(convert(test::oneObject(test::cube()), options).report.warnings.empty());
+  CHECK_THROWS_AS(convert(test::oneObject(test::moebius(8)), options), MeshError);
 }

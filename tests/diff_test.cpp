@@ -2,10 +2,10 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <cmath>
 #include <limits>

@@ -1,11 +1,11 @@
 #include "libvox/pipeline/estimate.h"
 
 #include "libvox/core/error.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/convert.h"
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <filesystem>
 #include <sstream>

@@ -1,6 +1,7 @@
 // The grid `surface`, from mesh to level set.
 
 #include "libvox/core/error.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "tests/scenes.h"
@@ -8,7 +9,6 @@
 #include "tests/spline_torus.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/Diagnostics.h>
 
 #include <algorithm>
@@ -48,10 +48,6 @@ Vec3d worldOf(const openvdb::FloatGrid& grid, const Coord& voxel) {
 float valueAt(const openvdb::FloatGrid& grid, const Vec3d& world) {
   const auto index = grid.worldToIndex(openvdb::Vec3d(world.data()));
   return grid.tree().getValue(Coord::round(index));
-}
-
-PolygonMesh moved(const PolygonMesh& mesh, const Vec3d& shift, double factor = 1) {
-  return test::together({}, mesh, shift, factor);
 }
 
 /// Points of the limit surface: the centroids of the faces of a deep level.
@@ -137,7 +133,7 @@ TEST_CASE("the level set of a closed mesh is sound", "[level-set][property]") {
 
 TEST_CASE("overlapping objects and components are united", "[level-set]") {
   const PolygonMesh a = test::cube();
-  const PolygonMesh b = moved(a, Vec3d(1, 0.3, 0));
+  const PolygonMesh b = test::moved(a, Vec3d(1, 0.3, 0));
   const auto gridA = levelSet({a}, 0.05);
   const auto gridB = levelSet({b}, 0.05);
   for (const auto& both :
@@ -157,11 +153,11 @@ TEST_CASE("a component that faces inward is taken out, and what lies in it is pu
           "[level-set]") {
   const PolygonMesh cube = test::cube();
   PolygonMesh all =
-      test::together(moved(cube, Vec3d(0, 0, 0), 4),
-                     test::insideOut(moved(cube, Vec3d(0, 0, 0), 2.5)), Vec3d(0, 0, 0));
+      test::together(test::moved(cube, Vec3d(0, 0, 0), 4),
+                     test::insideOut(test::moved(cube, Vec3d(0, 0, 0), 2.5)), Vec3d(0, 0, 0));
   all = test::together(all, cube, Vec3d(0, 0, 0));
   for (const auto& grid :
-       {levelSet({all}, 0.1), levelSet({moved(cube, Vec3d(0, 0, 20)), all}, 0.1)}) {
+       {levelSet({all}, 0.1), levelSet({test::moved(cube, Vec3d(0, 0, 20)), all}, 0.1)}) {
     CHECK(valueAt(*grid, Vec3d(5, 0, 0)) > 0);
     CHECK(valueAt(*grid, Vec3d(3.2, 0, 0)) < 0);
     CHECK(valueAt(*grid, Vec3d(1.7, 0, 0)) > 0);
@@ -204,7 +200,7 @@ TEST_CASE("an open object beside a closed one leaves it its sign", "[level-set]"
     ConvertOptions options = surfaceAt(0.1);
     options.volume.openMesh = policy;
     const Conversion conversion =
-        convert(sceneOf({test::sheet(4, 4), moved(test::cube(), Vec3d(9, 0, 0))}), options);
+        convert(sceneOf({test::sheet(4, 4), test::moved(test::cube(), Vec3d(9, 0, 0))}), options);
     CHECK(valueAt(*surfaceOf(conversion), Vec3d(9, 0, 0)) == -surfaceOf(conversion)->background());
     CHECK(valueAt(*surfaceOf(conversion), Vec3d(10.1, 0, 0)) > 0);
   }
@@ -232,7 +228,7 @@ TEST_CASE("a level set needs no voxels, and says nothing of them", "[level-set]"
 
 TEST_CASE("any number of threads makes the same level set", "[level-set][parallel]") {
   const Scene scene = sceneOf({test::torusGrid(24, 12), test::insideOut(test::prism(5)),
-                               moved(test::sheet(3, 3), Vec3d(0.4, 0, 0))});
+                               test::moved(test::sheet(3, 3), Vec3d(0.4, 0, 0))});
   const auto bytes = [&](int threads) {
     ConvertOptions options = surfaceAt(0.03);
     options.run.threads = threads;

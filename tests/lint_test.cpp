@@ -1,11 +1,11 @@
 #include "libvox/inspect/lint.h"
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/convert.h"
 #include "tests/shapes.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/LevelSetSphere.h>
 

@@ -8,6 +8,7 @@
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/image_vertices.h"
 #include "libvox/subdivide/stop.h"
+#include "tests/repaired_level.h"
 #include "tests/shapes.h"
 
 #include <Eigen/Geometry>
@@ -56,11 +57,6 @@ PolygonMesh refined(const SubdivisionLevel& base, const std::vector<VertexDepth>
   return welder.mesh;
 }
 
-SubdivisionLevel prepared(const PolygonMesh& mesh, BoundaryRule rule) {
-  RepairReport report;
-  return baseLevel(repair(mesh, {}, report), rule);
-}
-
 std::vector<VertexDepth> uniform(const SubdivisionLevel& base, int k) {
   const auto depth = static_cast<std::uint8_t>(k);
   return {base.mesh.cornerCount(), VertexDepth{depth, depth}};
@@ -102,9 +98,9 @@ void forShapes(Check&& check) {
       for (const auto rule : {BoundaryRule::kExtend, BoundaryRule::kFree}) {
         if (shape.closed && rule == BoundaryRule::kFree) continue;
         CAPTURE(shape.name, rule == BoundaryRule::kFree);
-        check(prepared(shape.mesh, rule));
+        check(test::repairedLevel(shape.mesh, rule));
       }
-  const SubdivisionLevel cone = prepared(test::pyramid(60), BoundaryRule::kExtend);
+  const SubdivisionLevel cone = test::repairedLevel(test::pyramid(60), BoundaryRule::kExtend);
   CAPTURE("cone");
   check(cone);
 }
@@ -305,7 +301,7 @@ TEST_CASE("the polygons are as near the smooth surface as the rule says", "[subd
   for (const PolygonMesh& mesh :
        {test::cube(), test::tetrahedron(), test::prism(7), test::pyramid(9), test::dodecahedron(),
         test::openFan(3, 5), test::sheet(3, 2)}) {
-    SubdivisionLevel base = prepared(mesh, BoundaryRule::kExtend);
+    SubdivisionLevel base = test::repairedLevel(mesh, BoundaryRule::kExtend);
     for (Vec3d& p : base.mesh.points) p *= 20;
     // The centroid of a face lies on the smooth surface.
     const PolygonMesh deep = subdivide(base, 5).mesh;
@@ -400,7 +396,7 @@ TEST_CASE("normals never show in the polygons, and are the same from all pieces"
 
 TEST_CASE("tiles of large arrays bring the normals of their neighbours",
           "[subdivide][localize][normals]") {
-  const SubdivisionLevel base = prepared(test::tetrahedron(), BoundaryRule::kExtend);
+  const SubdivisionLevel base = test::repairedLevel(test::tetrahedron(), BoundaryRule::kExtend);
   std::vector<VertexDepth> depths(base.mesh.cornerCount());
   depths[4] = {7, 7};
   const auto normals = recorded(base, depths, 2, true).byPoint();
@@ -442,7 +438,7 @@ TEST_CASE("the normals of polygons are those of the V-faces of the next level",
 TEST_CASE("on a boundary, normals stand across its curve",
           "[subdivide][localize][normals][property]") {
   for (const PolygonMesh& mesh : {test::sheet(4, 3), test::tube(7, 3), test::sheet(5, 1)}) {
-    const SubdivisionLevel base = prepared(mesh, BoundaryRule::kExtend);
+    const SubdivisionLevel base = test::repairedLevel(mesh, BoundaryRule::kExtend);
     const auto depths = uniform(base, 2);
     const auto normals = recorded(base, depths, 3, true).byPoint();
     const PolygonMesh whole = refined(base, depths, 3);

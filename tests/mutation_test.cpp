@@ -1,10 +1,10 @@
 #include "libvox/core/error.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/refine.h"
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "tests/shapes.h"
 #include "tests/spline_torus.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,16 +2,18 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/refined_polygons.h"
 #include "libvox/subdivide/doo_sabin.h"
+#include "tests/conversion.h"
 #include "tests/reference.h"
+#include "tests/scenes.h"
 #include "tests/shapes.h"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +26,6 @@ using openvdb::Coord;
 
 namespace {
 
-Scene sceneOf(const PolygonMesh& mesh) {
-  Scene scene;
-  scene.objects.push_back({"object", mesh});
-  return scene;
-}
-
 ConvertOptions polygonsAt(double voxelSize, int levels, Separation separation) {
   ConvertOptions options;
   options.voxelSize = voxelSize;
@@ -39,18 +35,8 @@ ConvertOptions polygonsAt(double voxelSize, int levels, Separation separation) {
   return options;
 }
 
-const openvdb::MaskGrid& maskOf(const Conversion& conversion) {
-  return dynamic_cast<const openvdb::MaskGrid&>(*conversion.grids.at(0));
-}
-
 std::string metadataOf(const Conversion& conversion, const std::string& name) {
   return conversion.grids.at(0)->metaValue<std::string>(name);
-}
-
-std::string bytesOf(const Conversion& conversion) {
-  std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
-  writeGrids(stream, conversion);
-  return stream.str();
 }
 
 int largest(const Coord& c) {
@@ -139,32 +125,33 @@ bool inSlottedBlock(const Coord& c) {
 
 TEST_CASE("a cube as it is has the voxels of its six faces", "[polygons][golden]") {
   const auto convertCube = [](double halfSide, Separation separation) {
-    return convert(sceneOf(test::cube()), polygonsAt(1 / halfSide, 0, separation));
+    return convert(test::oneObject(test::cube()), polygonsAt(1 / halfSide, 0, separation));
   };
   // The faces pass through voxel centres.
   for (const Separation separation : {Separation::k6, Separation::k26}) {
     const Conversion conversion = convertCube(4, separation);
-    checkVoxels(maskOf(conversion), 6, 9 * 9 * 9 - 7 * 7 * 7,
+    checkVoxels(test::maskOf(conversion), 6, 9 * 9 * 9 - 7 * 7 * 7,
                 [](const Coord& c) { return largest(c) == 4; });
     CHECK(conversion.report.objects[0].polygons.triangles == 12);
     CHECK(conversion.report.objects[0].levels == 0);
   }
   // The edges are nearer than 1/2 to voxels whose centres they do not reach.
-  checkVoxels(maskOf(convertCube(3.75, Separation::k6)), 6, 6 * 7 * 7,
+  checkVoxels(test::maskOf(convertCube(3.75, Separation::k6)), 6, 6 * 7 * 7,
               [](const Coord& c) { return largest(c) == 4 && countOf(c, 4) == 1; });
-  checkVoxels(maskOf(convertCube(3.75, Separation::k26)), 6, 9 * 9 * 9 - 7 * 7 * 7,
+  checkVoxels(test::maskOf(convertCube(3.75, Separation::k26)), 6, 9 * 9 * 9 - 7 * 7 * 7,
               [](const Coord& c) { return largest(c) == 4; });
   // The faces are those of voxels: both sides are met.
   checkVoxels(
-      maskOf(convertCube(3.5, Separation::k6)), 6, 6 * 7 * 7 + 7 * 7 * 7 - 5 * 5 * 5,
+      test::maskOf(convertCube(3.5, Separation::k6)), 6, 6 * 7 * 7 + 7 * 7 * 7 - 5 * 5 * 5,
       [](const Coord& c) { return largest(c) == 3 || (largest(c) == 4 && countOf(c, 4) == 1); });
-  checkVoxels(maskOf(convertCube(3.5, Separation::k26)), 6, 9 * 9 * 9 - 5 * 5 * 5,
+  checkVoxels(test::maskOf(convertCube(3.5, Separation::k26)), 6, 9 * 9 * 9 - 5 * 5 * 5,
               [](const Coord& c) { return largest(c) == 3 || largest(c) == 4; });
 }
 
 TEST_CASE("concave faces are filled and no farther", "[polygons][golden]") {
   const Separation separation = GENERATE(Separation::k6, Separation::k26);
-  const Conversion conversion = convert(sceneOf(slottedBlock()), polygonsAt(1, 0, separation));
+  const Conversion conversion =
+      convert(test::oneObject(slottedBlock()), polygonsAt(1, 0, separation));
   // Lattice points on the surface of a solid of whole numbers: those with a neighbour outside.
   std::uint64_t count = 0;
   const auto isActive = [&](const Coord& c) {
@@ -174,7 +161,7 @@ TEST_CASE("concave faces are filled and no farther", "[polygons][golden]") {
     return inSlottedBlock(c) && !surrounded;
   };
   for (const Coord& c : openvdb::CoordBBox::createCube(Coord(-8), 17)) count += isActive(c);
-  checkVoxels(maskOf(conversion), 8, count, isActive);
+  checkVoxels(test::maskOf(conversion), 8, count, isActive);
   CHECK(conversion.report.objects[0].polygons.triangles == 2 * 6 + 8 * 2);
   CHECK(conversion.report.objects[0].polygons.fanned == 0);
 }
@@ -186,7 +173,8 @@ TEST_CASE("a prism of any number of sides has the voxels of its faces as fans",
   CAPTURE(sides);
   const PolygonMesh mesh = test::prism(sides);
   const double voxelSize = 0.07;
-  const Conversion conversion = convert(sceneOf(mesh), polygonsAt(voxelSize, 0, separation));
+  const Conversion conversion =
+      convert(test::oneObject(mesh), polygonsAt(voxelSize, 0, separation));
   // Convex faces, and flat ones also when their corners are snapped: each way to cut them is right.
   std::vector<Vec3d> points;
   for (const Vec3d& p : mesh.points) points.push_back(p / voxelSize);
@@ -200,30 +188,30 @@ TEST_CASE("a prism of any number of sides has the voxels of its faces as fans",
       });
     }
   }
-  CHECK(maskOf(conversion).activeVoxelCount() == expected.activeVoxelCount());
-  CHECK(maskOf(conversion).tree().hasSameTopology(expected));
+  CHECK(test::maskOf(conversion).activeVoxelCount() == expected.activeVoxelCount());
+  CHECK(test::maskOf(conversion).tree().hasSameTopology(expected));
 }
 
 TEST_CASE("polygons of any level separate inside from outside as asked", "[polygons][property]") {
   const int levels = GENERATE(0, 1, 3);
   bool diagonalStepsLeak = false;
   for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::prism(7)}) {
-    const Scene scene = sceneOf(mesh);
+    const Scene scene = test::oneObject(mesh);
     const Coord centre =
         Coord::round(openvdb::Vec3d((test::centroid(mesh.points) / 0.09).eval().data()));
     const Conversion six = convert(scene, polygonsAt(0.09, levels, Separation::k6));
     const Conversion all = convert(scene, polygonsAt(0.09, levels, Separation::k26));
-    REQUIRE_FALSE(maskOf(all).tree().isValueOn(centre));
-    CHECK_FALSE(isOpen(maskOf(six), Separation::k6, centre));
-    CHECK_FALSE(isOpen(maskOf(all), Separation::k26, centre));
-    diagonalStepsLeak = diagonalStepsLeak || isOpen(maskOf(six), Separation::k26, centre);
+    REQUIRE_FALSE(test::maskOf(all).tree().isValueOn(centre));
+    CHECK_FALSE(isOpen(test::maskOf(six), Separation::k6, centre));
+    CHECK_FALSE(isOpen(test::maskOf(all), Separation::k26, centre));
+    diagonalStepsLeak = diagonalStepsLeak || isOpen(test::maskOf(six), Separation::k26, centre);
     CHECK(metadataOf(six, "vox_guarantee") == "6-separating");
     CHECK(metadataOf(all, "vox_guarantee") == "26-separating");
 
     PolygonMesh refined = subdivide(baseLevel(mesh), levels).mesh;
     for (Vec3d& p : refined.points) p /= 0.09;
     for (const Conversion* conversion : {&six, &all}) {
-      const test::Sides sides = test::sidesOf(refined, maskOf(*conversion));
+      const test::Sides sides = test::sidesOf(refined, test::maskOf(*conversion));
       CHECK(sides.leaks == 0);
       CHECK(sides.inside > 0);
     }
@@ -235,12 +223,12 @@ TEST_CASE("thread count never changes the voxels of polygons", "[polygons][paral
   const Separation separation = GENERATE(Separation::k6, Separation::k26);
   ConvertOptions options = polygonsAt(0.02, 3, separation);
   options.run.threads = 1;
-  const Scene scene = sceneOf(test::torusGrid(12, 7));
+  const Scene scene = test::oneObject(test::torusGrid(12, 7));
   const Conversion alone = convert(scene, options);
   for (const int threads : {2, 8}) {
     options.run.threads = threads;
     const Conversion together = convert(scene, options);
-    CHECK(bytesOf(together) == bytesOf(alone));
+    CHECK(test::bytesOf(together) == test::bytesOf(alone));
     CHECK(together.report.objects[0].polygons.triangles ==
           alone.report.objects[0].polygons.triangles);
   }
@@ -251,18 +239,19 @@ TEST_CASE("vertex conversion of a deep refinement stays within a voxel of its po
   for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::pyramid(5)}) {
     ConvertOptions options = polygonsAt(0.06, 0, Separation::k6);
     options.until = StopRule();
-    const Conversion vertices = convert(sceneOf(mesh), options);
+    const Conversion vertices = convert(test::oneObject(mesh), options);
     const int levels = vertices.report.objects[0].levels;
     for (const Separation separation : {Separation::k6, Separation::k26}) {
-      const Conversion polygons = convert(sceneOf(mesh), polygonsAt(0.06, levels, separation));
-      CHECK(farVoxels(maskOf(vertices), maskOf(polygons), 1) == 0);
-      CHECK(farVoxels(maskOf(polygons), maskOf(vertices), 1) == 0);
+      const Conversion polygons =
+          convert(test::oneObject(mesh), polygonsAt(0.06, levels, separation));
+      CHECK(farVoxels(test::maskOf(vertices), test::maskOf(polygons), 1) == 0);
+      CHECK(farVoxels(test::maskOf(polygons), test::maskOf(vertices), 1) == 0);
     }
   }
 }
 
 TEST_CASE("options say where to stop before objects, objects before the scene", "[polygons]") {
-  Scene scene = sceneOf(test::cube());
+  Scene scene = test::oneObject(test::cube());
   scene.objects.push_back({"second", test::cube()});
   scene.until = StopRule{1};
   scene.objects[1].until = StopRule{2};
@@ -284,16 +273,17 @@ TEST_CASE("options say where to stop before objects, objects before the scene", 
 }
 
 TEST_CASE("one object may stay polygons while another is smoothed", "[polygons]") {
-  Scene scene = sceneOf(test::cube());
+  Scene scene = test::oneObject(test::cube());
   scene.objects.push_back({"smooth", test::cube()});
   scene.objects[0].until = StopRule{0};
   for (Vec3d& p : scene.objects[1].mesh.points) p += Vec3d(4, 0, 0);
   ConvertOptions options = polygonsAt(0.25, 0, Separation::k6);
   options.until.reset();
   const Conversion conversion = convert(scene, options);
-  CHECK(maskOf(conversion).tree().isValueOn(Coord(4, 4, 4)));         // a corner of the first
-  CHECK_FALSE(maskOf(conversion).tree().isValueOn(Coord(20, 4, 4)));  // is rounded off the second
-  CHECK(maskOf(conversion).tree().isValueOn(Coord(20, 0, 0)));
+  CHECK(test::maskOf(conversion).tree().isValueOn(Coord(4, 4, 4)));  // a corner of the first
+  CHECK_FALSE(
+      test::maskOf(conversion).tree().isValueOn(Coord(20, 4, 4)));  // is rounded off the second
+  CHECK(test::maskOf(conversion).tree().isValueOn(Coord(20, 0, 0)));
   options.separation = Separation::k26;
   options.voxelize = Voxelize::kVertex;
   CHECK_THROWS_WITH(convert(scene, options), Contains("object") && Contains("needs --until voxel"));
@@ -302,16 +292,16 @@ TEST_CASE("one object may stay polygons while another is smoothed", "[polygons]"
 TEST_CASE("an open mesh left as it is does not shrink, and nobody says so", "[polygons]") {
   ConvertOptions options = polygonsAt(0.1, 0, Separation::k6);
   options.smoothing.boundary = BoundaryRule::kFree;
-  CHECK(convert(sceneOf(test::sheet(3, 3)), options).report.warnings.empty());
+  CHECK(convert(test::oneObject(test::sheet(3, 3)), options).report.warnings.empty());
   options.until = StopRule{1};
-  CHECK(convert(sceneOf(test::sheet(3, 3)), options).report.warnings.size() == 1);
+  CHECK(convert(test::oneObject(test::sheet(3, 3)), options).report.warnings.size() == 1);
 }
 
 TEST_CASE("polygons that fold become fans, with a warning", "[polygons]") {
   // Its sides cross, and its halves turn opposite ways.
   const PolygonMesh bow =
       test::meshOf({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
-  const Conversion conversion = convert(sceneOf(bow), polygonsAt(0.05, 0, Separation::k6));
+  const Conversion conversion = convert(test::oneObject(bow), polygonsAt(0.05, 0, Separation::k6));
   CHECK(conversion.report.objects[0].polygons.fanned == 1);
   CHECK(conversion.report.objects[0].polygons.triangles == 2);
   REQUIRE(conversion.report.warnings.size() == 1);
@@ -319,7 +309,7 @@ TEST_CASE("polygons that fold become fans, with a warning", "[polygons]") {
 }
 
 TEST_CASE("polygons that cannot be had are refused", "[polygons][error]") {
-  const Scene scene = sceneOf(test::cube());
+  const Scene scene = test::oneObject(test::cube());
   ConvertOptions options = polygonsAt(0.1, 0, Separation::k26);
   for (const int levels : {-1, kMostLevels + 1}) {
     options.until = StopRule{levels};
@@ -360,20 +350,20 @@ TEST_CASE("voxels of refined polygons are the same for every cut and any threads
       options.until = rule;
       options.surface.submeshFaces = 1;
       options.run.threads = 1;
-      const std::string alone = bytesOf(convert(sceneOf(mesh), options));
+      const std::string alone = test::bytesOf(convert(test::oneObject(mesh), options));
       options.surface.submeshFaces = kDefaultSubmeshFaces;
       options.run.threads = 8;
-      CHECK(bytesOf(convert(sceneOf(mesh), options)) == alone);
+      CHECK(test::bytesOf(convert(test::oneObject(mesh), options)) == alone);
       if (rule != StopRule{4}) continue;
       // The plain algorithm differs in the last bits of its points.
       options.surface.localize = Localize::kOff;
-      const Conversion whole = convert(sceneOf(mesh), options);
+      const Conversion whole = convert(test::oneObject(mesh), options);
       options.surface.localize = Localize::kDuring;
-      const Conversion local = convert(sceneOf(mesh), options);
+      const Conversion local = convert(test::oneObject(mesh), options);
       CHECK(whole.report.objects[0].polygons.triangles ==
             local.report.objects[0].polygons.triangles);
-      CHECK(farVoxels(maskOf(whole), maskOf(local), 1) == 0);
-      CHECK(farVoxels(maskOf(local), maskOf(whole), 1) == 0);
+      CHECK(farVoxels(test::maskOf(whole), test::maskOf(local), 1) == 0);
+      CHECK(farVoxels(test::maskOf(local), test::maskOf(whole), 1) == 0);
     }
 }
 
@@ -385,11 +375,11 @@ TEST_CASE("polygons of every rule separate inside from outside as asked", "[poly
         CAPTURE(stopRuleName(rule));
         ConvertOptions options = polygonsAt(0.05, 0, separation);
         options.until = rule;
-        const Conversion conversion = convert(sceneOf(mesh), options);
+        const Conversion conversion = convert(test::oneObject(mesh), options);
         const Coord centre =
             Coord::round(openvdb::Vec3d((test::centroid(mesh.points) / 0.05).eval().data()));
-        REQUIRE_FALSE(maskOf(conversion).tree().isValueOn(centre));
-        CHECK_FALSE(isOpen(maskOf(conversion), separation, centre));
+        REQUIRE_FALSE(test::maskOf(conversion).tree().isValueOn(centre));
+        CHECK_FALSE(isOpen(test::maskOf(conversion), separation, centre));
       }
 }
 
@@ -398,19 +388,19 @@ TEST_CASE("vertices lie in the 26-separating voxels of the polygons that fit int
   for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::pyramid(9)}) {
     ConvertOptions options = polygonsAt(0.03, 0, Separation::k6);
     options.until = StopRule();
-    const Conversion vertices = convert(sceneOf(mesh), options);
+    const Conversion vertices = convert(test::oneObject(mesh), options);
     options.separation = Separation::k26;
     options.voxelize = Voxelize::kPolygon;
-    const Conversion polygons = convert(sceneOf(mesh), options);
+    const Conversion polygons = convert(test::oneObject(mesh), options);
     CHECK(polygons.report.objects[0].byPolygons);
     // A vertex of the one need not be a vertex of the other: both are within 0.1 of the surface.
-    CHECK(farVoxels(maskOf(vertices), maskOf(polygons), 1) == 0);
-    CHECK(farVoxels(maskOf(polygons), maskOf(vertices), 1) == 0);
+    CHECK(farVoxels(test::maskOf(vertices), test::maskOf(polygons), 1) == 0);
+    CHECK(farVoxels(test::maskOf(polygons), test::maskOf(vertices), 1) == 0);
     options.voxelize.reset();
-    const Conversion automatic = convert(sceneOf(mesh), options);
+    const Conversion automatic = convert(test::oneObject(mesh), options);
     CHECK(automatic.report.objects[0].until == StopRule{{}, {}, {}, kAutomaticFlatness});
-    CHECK(farVoxels(maskOf(vertices), maskOf(automatic), 1) == 0);
-    CHECK(farVoxels(maskOf(automatic), maskOf(vertices), 1) == 0);
+    CHECK(farVoxels(test::maskOf(vertices), test::maskOf(automatic), 1) == 0);
+    CHECK(farVoxels(test::maskOf(automatic), test::maskOf(vertices), 1) == 0);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "libvox/pipeline/refine.h"
 
 #include "libvox/core/error.h"
+#include "tests/scenes.h"
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
@@ -12,19 +13,10 @@
 using namespace vox;
 using Catch::Contains;
 
-namespace {
-
-Scene sceneOf(const std::vector<PolygonMesh>& meshes) {
-  Scene scene;
-  for (const PolygonMesh& mesh : meshes)
-    scene.objects.push_back({"object " + std::to_string(scene.objects.size() + 1), mesh});
-  return scene;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("refining a scene joins its objects into one mesh", "[pipeline]") {
-  const Scene scene = sceneOf({test::cube(), test::tetrahedron()});
+  const Scene scene = test::sceneOf({test::cube(), test::tetrahedron()});
   const PolygonMesh mesh = refine(scene, 1, {}, {}).mesh;
   CHECK(mesh.pointCount() == 24 + 12);
   CHECK(mesh.faceCount() == 26 + 14);
@@ -41,8 +33,8 @@ TEST_CASE("level 0 is the prepared mesh: welded, oriented, each face from its lo
           "[pipeline]") {
   PolygonMesh flipped = test::cube();
   std::reverse(flipped.faceVertices.begin() + 4, flipped.faceVertices.begin() + 8);
-  const PolygonMesh plain = refine(sceneOf({test::cube()}), 0, {}, {}).mesh;
-  const Refinement repaired = refine(sceneOf({flipped}), 0, {}, {});
+  const PolygonMesh plain = refine(test::sceneOf({test::cube()}), 0, {}, {}).mesh;
+  const Refinement repaired = refine(test::sceneOf({flipped}), 0, {}, {});
   CHECK(repaired.mesh.faceVertices == plain.faceVertices);
   CHECK(repaired.warnings.size() == 1);
 }
@@ -50,7 +42,7 @@ TEST_CASE("level 0 is the prepared mesh: welded, oriented, each face from its lo
 TEST_CASE("level 0 is the control mesh when vertices are interpolated", "[pipeline]") {
   PreparationOptions options;
   options.smoothing.interpolate = Interpolate::kInterior;
-  const Scene scene = sceneOf({test::cube()});
+  const Scene scene = test::sceneOf({test::cube()});
   const PolygonMesh controls = refine(scene, 0, options, {}).mesh;
   const PolygonMesh refined = refine(scene, 1, options, {}).mesh;
   for (Index v = 0; v < 8; ++v) {
@@ -70,26 +62,26 @@ TEST_CASE("level 0 is the control mesh when vertices are interpolated", "[pipeli
 TEST_CASE("what cannot be interpolated is said", "[pipeline][error]") {
   PreparationOptions options;
   options.smoothing.interpolatedVertices = std::vector<Index>{8};
-  CHECK_THROWS_WITH(refine(sceneOf({test::valenceTwo()}), 0, options, {}),
+  CHECK_THROWS_WITH(refine(test::sceneOf({test::valenceTwo()}), 0, options, {}),
                     Contains("vertex 8 is to be interpolated, but repair has removed it"));
-  CHECK_THROWS_WITH(refine(sceneOf({test::cube()}), 0, options, {}),
+  CHECK_THROWS_WITH(refine(test::sceneOf({test::cube()}), 0, options, {}),
                     Contains("vertex 8 is to be interpolated, but there are only 8"));
 
   options = {};
   options.smoothing.interpolate = Interpolate::kBoth;
   options.smoothing.boundary = BoundaryRule::kFree;
-  CHECK_THROWS_AS(refine(sceneOf({test::sheet(3, 3)}), 1, options, {}), UsageError);
+  CHECK_THROWS_AS(refine(test::sceneOf({test::sheet(3, 3)}), 1, options, {}), UsageError);
   options = {};
   options.smoothing.interpolatedVertices = std::vector<Index>{0};
-  CHECK_THROWS_AS(refine(sceneOf({test::cube(), test::cube()}), 1, options, {}), UsageError);
-  CHECK_THROWS_WITH(refine(sceneOf({test::sheet(2, 2)}), 1, options, {}),
+  CHECK_THROWS_AS(refine(test::sceneOf({test::cube(), test::cube()}), 1, options, {}), UsageError);
+  CHECK_THROWS_WITH(refine(test::sceneOf({test::sheet(2, 2)}), 1, options, {}),
                     Contains("vertex 0 cannot be interpolated: it is on the boundary"));
 }
 
 TEST_CASE("an error names file, object and element", "[pipeline][error]") {
   PolygonMesh degenerate = test::cube();
   for (Index& v : degenerate.faceVertices) v = 3;
-  Scene scene = sceneOf({test::cube(), degenerate});
+  Scene scene = test::sceneOf({test::cube(), degenerate});
   scene.files = {"two.toml"};
   CHECK_THROWS_WITH(refine(scene, 1, {}, {}),
                     Contains("two.toml: object 2: nothing is left after repair"));
@@ -102,10 +94,10 @@ TEST_CASE("an error names file, object and element", "[pipeline][error]") {
 TEST_CASE("refinement keeps to its memory limit", "[pipeline][error]") {
   RunOptions options;
   options.maxMemory = std::uint64_t{1} << 26;
-  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), 25, {}, options), LimitError);
+  CHECK_THROWS_AS(refine(test::sceneOf({test::cube()}), 25, {}, options), LimitError);
   const std::vector<PolygonMesh> many(40, test::cube());
-  CHECK_NOTHROW(refine(sceneOf({test::cube()}), 6, {}, options));
-  CHECK_THROWS_AS(refine(sceneOf(many), 6, {}, options), LimitError);
+  CHECK_NOTHROW(refine(test::sceneOf({test::cube()}), 6, {}, options));
+  CHECK_THROWS_AS(refine(test::sceneOf(many), 6, {}, options), LimitError);
 }
 
 TEST_CASE("refinement moves on with its levels, and can be cancelled", "[pipeline]") {
@@ -119,7 +111,7 @@ TEST_CASE("refinement moves on with its levels, and can be cancelled", "[pipelin
   RunOptions options;
   Progress whole(note, std::chrono::nanoseconds(0));
   run = options.progress = &whole;
-  refine(sceneOf({test::cube(), test::tetrahedron()}), 5, {}, options);
+  refine(test::sceneOf({test::cube(), test::tetrahedron()}), 5, {}, options);
   CHECK(std::is_sorted(fractions.begin(), fractions.end()));
   CHECK(fractions.size() > 10);
   CHECK(fractions.back() < 1);  // the rest is for writing
@@ -129,18 +121,19 @@ TEST_CASE("refinement moves on with its levels, and can be cancelled", "[pipelin
   stop = true;
   Progress part(note, std::chrono::nanoseconds(0));
   run = options.progress = &part;
-  CHECK_THROWS_AS(refine(sceneOf({test::cube(), test::tetrahedron()}), 5, {}, options), Cancelled);
+  CHECK_THROWS_AS(refine(test::sceneOf({test::cube(), test::tetrahedron()}), 5, {}, options),
+                  Cancelled);
   CHECK(fractions.back() < 0.3);
 }
 
 TEST_CASE("impossible requests for refinement are refused", "[pipeline][error]") {
-  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), -1, {}, {}), UsageError);
+  CHECK_THROWS_AS(refine(test::sceneOf({test::cube()}), -1, {}, {}), UsageError);
   RunOptions options;
   options.threads = -3;
-  CHECK_THROWS_AS(refine(sceneOf({test::cube()}), 1, {}, options), UsageError);
+  CHECK_THROWS_AS(refine(test::sceneOf({test::cube()}), 1, {}, options), UsageError);
   PolygonMesh wrong = test::cube();
   wrong.faceVertices[5] = 50000000;
-  CHECK_THROWS_AS(refine(sceneOf({wrong}), 1, {}, {}), MeshError);
+  CHECK_THROWS_AS(refine(test::sceneOf({wrong}), 1, {}, {}), MeshError);
 }
 
 TEST_CASE("a strict run names the first thing that a mesh needs", "[pipeline][error]") {
@@ -173,7 +166,7 @@ TEST_CASE("a strict run names the first thing that a mesh needs", "[pipeline][er
   strict.strict = true;
   for (const auto& [mesh, message] : cases) {
     CAPTURE(message);
-    Scene scene = sceneOf({test::cube(), mesh});
+    Scene scene = test::sceneOf({test::cube(), mesh});
     scene.files = {"two.toml"};
     CHECK_THROWS_WITH(
         refine(scene, 0, strict, {}),
@@ -187,7 +180,7 @@ TEST_CASE("a strict run names the first thing that a mesh needs", "[pipeline][er
   }
   for (const auto& shape : test::openShapes()) {
     CAPTURE(shape.name);
-    CHECK_NOTHROW(refine(sceneOf({shape.mesh}), 0, strict, {}));
+    CHECK_NOTHROW(refine(test::sceneOf({shape.mesh}), 0, strict, {}));
   }
 }
 
@@ -195,7 +188,7 @@ TEST_CASE("elements in messages are those of the input, after repair too", "[pip
   PolygonMesh mesh = test::cube();
   mesh.addFace(std::vector<Index>{0, 0, 1});  // dropped, so the strip's faces move up
   mesh = test::together(mesh, test::moebius(8), {5, 0, 0});
-  const auto warnings = refine(sceneOf({mesh}), 0, {}, {}).warnings;
+  const auto warnings = refine(test::sceneOf({mesh}), 0, {}, {}).warnings;
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0], Contains("dropped 1 degenerate face, ") &&
                               Contains(", doubled 1 one-sided component (face 7)"));
@@ -204,7 +197,7 @@ TEST_CASE("elements in messages are those of the input, after repair too", "[pip
 TEST_CASE("a weld tolerance closes small gaps, the command line before the scene", "[pipeline]") {
   PolygonMesh gaping = test::unwelded(test::cube());
   for (Index v = 0; v < gaping.pointCount(); ++v) gaping.points[v].x() += 0.001 * (v / 4);
-  Scene scene = sceneOf({gaping});
+  Scene scene = test::sceneOf({gaping});
   CHECK(refine(scene, 0, {}, {}).mesh.pointCount() == 24);
   scene.weldTolerance = 0.01;
   CHECK(refine(scene, 0, {}, {}).mesh.pointCount() == 8);

@@ -32,14 +32,14 @@ Repaired repaired(const PolygonMesh& mesh, RepairOptions options = {}) {
   return out;
 }
 
-PolygonMesh oriented(const PolygonMesh& mesh) {
+PolygonMesh orientedMesh(const PolygonMesh& mesh) {
   OrientReport report;
   return orient(mesh, report);
 }
 
 /// The law: oriented, the result has no defects and no interior vertex of two faces.
-void checkSound(const PolygonMesh& mesh) {
-  const PolygonMesh ready = oriented(mesh);
+void checkRepaired(const PolygonMesh& mesh) {
+  const PolygonMesh ready = orientedMesh(mesh);
   CHECK(test::faultOf(ready) == "");
   const Adjacency adjacency = buildAdjacency(ready);
   for (Index c = 0; c < ready.cornerCount(); ++c) {
@@ -65,7 +65,7 @@ TEST_CASE("a sound mesh passes unchanged and nothing is reported", "[repair]") {
     CHECK(test::sameMesh(out.mesh, shape.mesh));
     CHECK_FALSE(out.report.changed());
     CHECK(summary(out.report).empty());
-    checkSound(out.mesh);
+    checkRepaired(out.mesh);
   }
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("an unwelded cube welds to eight vertices and closes", "[repair][weld]
   CHECK(test::eulerCharacteristic(out.mesh) == 2);
   CHECK(componentsOf(out.mesh).closedComponents == 1);
   for (Index v = 0; v < 8; ++v) CHECK(out.mesh.points[v] == mesh.points[out.report.pointOrigin[v]]);
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 }
 
 TEST_CASE("a tolerance welds near points, without chains, and leaves the others",
@@ -129,7 +129,7 @@ TEST_CASE("a mesh within the tolerance vanishes without a crash", "[repair][weld
   CHECK(out.mesh.faceCount() == 0);
   CHECK(out.mesh.pointCount() == 0);
   CHECK(out.count(RepairKind::kDegenerateFace) == 6);
-  CHECK(oriented(out.mesh).faceCount() == 0);
+  CHECK(orientedMesh(out.mesh).faceCount() == 0);
 }
 
 TEST_CASE("repeats and spikes leave their face, thin faces go", "[repair]") {
@@ -145,7 +145,7 @@ TEST_CASE("repeats and spikes leave their face, thin faces go", "[repair]") {
   CHECK(
       summary(out.report) ==
       "removed repeated corners from 1 face, dropped 2 degenerate faces, removed 1 unused vertex");
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 }
 
 TEST_CASE("a figure eight becomes two faces that no longer touch", "[repair]") {
@@ -158,7 +158,7 @@ TEST_CASE("a figure eight becomes two faces that no longer touch", "[repair]") {
   CHECK(out.count(RepairKind::kSplitVertex) == 1);
   CHECK(out.report.faceOrigin == std::vector<Index>{0, 0});
   CHECK(out.report.pointOrigin == std::vector<Index>{0, 1, 2, 3, 4, 0});
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 }
 
 TEST_CASE("a keyhole becomes its outline and a lid", "[repair]") {
@@ -169,7 +169,7 @@ TEST_CASE("a keyhole becomes its outline and a lid", "[repair]") {
   const auto out = repaired(mesh);
   CHECK(out.mesh.faceCount() == 2);
   CHECK(out.count(RepairKind::kSplitFace) == 1);
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 }
 
 TEST_CASE("of duplicate faces the first stays, whatever their winding and start", "[repair]") {
@@ -181,7 +181,7 @@ TEST_CASE("of duplicate faces the first stays, whatever their winding and start"
   CHECK(out.count(RepairKind::kDuplicateFace) == 2);
   CHECK(out.report[RepairKind::kDuplicateFace].message == "dropped face 6, which repeats face 0");
   CHECK(out.mesh.faceCount() == 7);
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 }
 
 TEST_CASE("faces without area stay", "[repair]") {
@@ -199,14 +199,14 @@ TEST_CASE("two tetrahedra that share a vertex come apart there", "[repair]") {
   CHECK(out.report[RepairKind::kSplitVertex].message ==
         "split vertex 0, which joins several fans of faces");
   CHECK(test::eulerCharacteristic(out.mesh) == 4);
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 }
 
 TEST_CASE("a shared apex of two cones comes apart", "[repair]") {
   const auto out = repaired(test::twoCones());
   CHECK(out.mesh.pointCount() == 14);
   CHECK(componentsOf(out.mesh).openComponents == 2);
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 }
 
 TEST_CASE("an edge of three faces keeps the flattest two joined", "[repair]") {
@@ -228,7 +228,7 @@ TEST_CASE("an edge of three faces keeps the flattest two joined", "[repair]") {
   CHECK(out.mesh.pointCount() == 10);
   CHECK(summary(out.report) == "cut 1 edge");
   CHECK_THAT(out.report[RepairKind::kCutEdge].message, Contains("cut edge (0, 1) of face 0"));
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 
   const Index fin = static_cast<Index>((2 - order + 3) % 3);
   const Adjacency joints = joinFaces(out.mesh, CrowdedEdge::kSeparate).adjacency;
@@ -246,7 +246,7 @@ TEST_CASE("a fin in the middle of a plate leaves the plate whole", "[repair]") {
   const auto components = componentsOf(out.mesh);
   CHECK(components.openComponents == 2);
   CHECK(components.components == 2);
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 }
 
 TEST_CASE("two cubes that touch along an edge stay two closed cubes", "[repair]") {
@@ -255,7 +255,7 @@ TEST_CASE("two cubes that touch along an edge stay two closed cubes", "[repair]"
   CHECK(out.count(RepairKind::kCutEdge) == 1);
   CHECK(out.mesh.pointCount() == 16);
   CHECK(componentsOf(out.mesh).closedComponents == 2);
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 }
 
 TEST_CASE("two cubes with a common wall become a closed box and the wall", "[repair]") {
@@ -265,7 +265,7 @@ TEST_CASE("two cubes with a common wall become a closed box and the wall", "[rep
   const auto components = componentsOf(out.mesh);
   CHECK(components.closedComponents == 1);
   CHECK(components.openComponents == 1);
-  checkSound(out.mesh);
+  checkRepaired(out.mesh);
 }
 
 TEST_CASE("back-to-back faces become one, a flat box too", "[repair]") {
@@ -310,7 +310,7 @@ TEST_CASE("an interior vertex of two faces is chorded, chains of them too", "[re
   }
   const auto out = repaired(mesh);
   CHECK(out.count(RepairKind::kChordedVertex) == 1000);
-  CHECK(test::sameMesh(oriented(out.mesh), oriented(test::tetrahedron())));
+  CHECK(test::sameMesh(orientedMesh(out.mesh), orientedMesh(test::tetrahedron())));
 }
 
 TEST_CASE("a face that chords leave with two corners closes up", "[repair][chord]") {
@@ -326,7 +326,7 @@ TEST_CASE("a face that chords leave with two corners closes up", "[repair][chord
   const auto out = repaired(cut);
   CHECK(out.count(RepairKind::kChordedVertex) == 1);
   CHECK(out.count(RepairKind::kCollapsedFace) == 1);
-  CHECK(test::sameMesh(oriented(out.mesh), oriented(test::tetrahedron())));
+  CHECK(test::sameMesh(orientedMesh(out.mesh), orientedMesh(test::tetrahedron())));
 }
 
 TEST_CASE("a component that encloses nothing is dropped and counted", "[repair][chord]") {
@@ -344,7 +344,7 @@ TEST_CASE("opening interior pairs is always possible", "[repair][chord]") {
   Adjacency joints = joinFaces(mesh, CrowdedEdge::kSeparate).adjacency;
   openInteriorPairs(mesh, joints);
   CHECK(splitFans(mesh, joints) == std::vector<Index>{8});
-  checkSound(mesh);
+  checkRepaired(mesh);
 }
 
 TEST_CASE("boundary vertices of one or two faces stay", "[repair][chord]") {
@@ -389,7 +389,7 @@ TEST_CASE("mutated meshes end sound, repair is idempotent and repeatable", "[rep
     for (int i = 0; i < mutations; ++i) test::mutate(mesh, random);
 
     const auto once = repaired(mesh, {seed % 3 == 0 ? 0.3 : 0.0});
-    checkSound(once.mesh);
+    checkRepaired(once.mesh);
     CHECK(test::sameMesh(once.mesh, repaired(mesh, {seed % 3 == 0 ? 0.3 : 0.0}).mesh));
 
     const auto twice = repaired(once.mesh, {0, false});
@@ -423,7 +423,7 @@ TEST_CASE("adversarial meshes take no more than n log n", "[repair][property]") 
   hard.push_back(comb);
   for (const auto& mesh : hard) {
     const std::clock_t start = std::clock();
-    checkSound(repaired(mesh).mesh);
+    checkRepaired(repaired(mesh).mesh);
     CHECK((std::clock() - start) / CLOCKS_PER_SEC < 20);
   }
 }

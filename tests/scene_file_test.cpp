@@ -13,7 +13,8 @@ using Catch::Contains;
 
 namespace {
 
-const std::string kTriangle = "points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\n";
+const std::string kTriangleKeys =
+    "points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\n";
 
 Scene read(const std::string& text) {
   const test::TemporaryFolder folder;
@@ -38,7 +39,7 @@ TEST_CASE("a scene gives settings and objects", "[scene]") {
       "[convert]\ndim = 128\ngrids = ['mask', 'density']\nweld = 0.25\nstrict = true\n"
       "fill = 'solid'\ngain = 30\nopen_mesh = 'error'\n"
       "[[object]]\nname = 't'\n" +
-      kTriangle + "[[object]]\n" + kTriangle);
+      kTriangleKeys + "[[object]]\n" + kTriangleKeys);
   CHECK(scene.dim == 128);
   CHECK_FALSE(scene.voxelSize.has_value());
   CHECK(scene.grids == std::vector{GridKind::kMask, GridKind::kDensity});
@@ -46,7 +47,7 @@ TEST_CASE("a scene gives settings and objects", "[scene]") {
   CHECK(scene.strict == true);
   CHECK(scene.volume.fill == Fill::kSolid);
   CHECK(scene.volume.gain == 30);
-  CHECK(scene.volume.openMesh == OpenMesh::kError);
+  CHECK(scene.volume.openMesh == vox::OpenMesh::kError);
   REQUIRE(scene.objects.size() == 2);
   CHECK(scene.objects[0].name == "t");
   CHECK(scene.objects[1].name == "object 2");
@@ -73,7 +74,9 @@ TEST_CASE("a mesh file is a scene of one object named after it", "[scene]") {
 
 TEST_CASE("a transform scales, rotates about x, y, z, then translates", "[scene][golden]") {
   const auto pointAfter = [](const std::string& transform) {
-    return read("[[object]]\n" + kTriangle + "transform = " + transform).objects[0].mesh.points[1];
+    return read("[[object]]\n" + kTriangleKeys + "transform = " + transform)
+        .objects[0]
+        .mesh.points[1];
   };
   const auto near = [](const Vec3d& a, const Vec3d& b) { return (a - b).norm() < 1e-15; };
   CHECK(near(pointAfter("{ translate = [1, 2, 3] }"), {2, 2, 3}));
@@ -86,15 +89,15 @@ TEST_CASE("a transform scales, rotates about x, y, z, then translates", "[scene]
 }
 
 TEST_CASE("a mirrored object keeps its faces outward", "[scene]") {
-  const Scene scene = read("[[object]]\n" + kTriangle + "transform = { scale = [1, 1, -1] }");
+  const Scene scene = read("[[object]]\n" + kTriangleKeys + "transform = { scale = [1, 1, -1] }");
   CHECK(scene.objects[0].mesh.faceVertices == std::vector<Index>{0, 2, 1});
 }
 
 TEST_CASE("an object says how it is smoothed", "[scene]") {
-  const Scene scene = read("[[object]]\n" + kTriangle +
+  const Scene scene = read("[[object]]\n" + kTriangleKeys +
                            "boundary = 'free'\ninterpolate = 'both'\n"
                            "interpolate_vertices = [2, 0]\n[[object]]\n" +
-                           kTriangle);
+                           kTriangleKeys);
   const SmoothingOptions& first = scene.objects[0].smoothing;
   CHECK(first.boundary == BoundaryRule::kFree);
   CHECK(first.interpolate == Interpolate::kBoth);
@@ -113,7 +116,8 @@ TEST_CASE("the scene and an object say where to stop", "[scene]") {
   const Scene scene = read(
       "[convert]\nuntil = { levels = 3 }\n"
       "[[object]]\nuntil = { levels = 0 }\n" +
-      kTriangle + "[[object]]\nuntil = 'voxel'\n" + kTriangle + "[[object]]\n" + kTriangle);
+      kTriangleKeys + "[[object]]\nuntil = 'voxel'\n" + kTriangleKeys + "[[object]]\n" +
+      kTriangleKeys);
   REQUIRE(scene.until.has_value());
   CHECK(scene.until->levels == 3);
   REQUIRE(scene.objects[0].until.has_value());
@@ -134,7 +138,7 @@ TEST_CASE("a list of indices is read with its comments, and refused by line", "[
 }
 
 TEST_CASE("what a scene gets wrong is named with line and column", "[scene][error]") {
-  const std::string object = "[[object]]\n" + kTriangle;
+  const std::string object = "[[object]]\n" + kTriangleKeys;
   checkRefused("[convert]\nsize = 3\n", ":2:1:", "unknown key 'size' in [convert]");
   checkRefused("colour = 1\n", ":1:1:", "unknown key 'colour'");
   checkRefused(object + "smooth = true\n", ":4:1:", "unknown key 'smooth' in [[object]]");

@@ -18,4 +18,11 @@ inline Scene sceneOf(std::vector<PolygonMesh> meshes) {
   return scene;
 }
 
+/// A scene of one mesh: "object".
+inline Scene oneObject(PolygonMesh mesh) {
+  Scene scene;
+  scene.objects.push_back({"object", std::move(mesh)});
+  return scene;
+}
+
 }  // namespace vox::test

@@ -1,5 +1,6 @@
 #include "libvox/inspect/separation.h"
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/inspect/components.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/refined_polygons.h"
@@ -10,7 +11,6 @@
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 

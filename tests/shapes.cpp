@@ -356,6 +356,16 @@ PolygonMesh stirred(PolygonMesh mesh, double flips, std::uint32_t seed) {
   return mesh;
 }
 
+PolygonMesh scaled(PolygonMesh mesh, double scale) {
+  for (Vec3d& p : mesh.points) p *= scale;
+  return mesh;
+}
+
+PolygonMesh moved(PolygonMesh mesh, const Vec3d& shift, double scale) {
+  for (Vec3d& p : mesh.points) p = scale * p + shift;
+  return mesh;
+}
+
 PolygonMesh together(PolygonMesh a, const PolygonMesh& b, const Vec3d& shift, double scale) {
   const Index offset = a.pointCount();
   for (const Vec3d& p : b.points) a.points.push_back(scale * p + shift);

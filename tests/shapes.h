@@ -60,6 +60,11 @@ PolygonMesh stirred(PolygonMesh mesh, double flips, std::uint32_t seed);
 /// first.
 PolygonMesh together(PolygonMesh a, const PolygonMesh& b, const Vec3d& shift, double scale = 1);
 
+PolygonMesh scaled(PolygonMesh mesh, double scale);  ///< about the origin
+
+/// Scaled about the origin, then moved.
+PolygonMesh moved(PolygonMesh mesh, const Vec3d& shift, double scale = 1);
+
 /// Does one of many bad things to a mesh: flips, doubles, deletes a face, welds, collapses, moves
 /// corners to random vertices. The arrays stay valid.
 void mutate(PolygonMesh& mesh, std::mt19937& random);

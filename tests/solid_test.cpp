@@ -1,13 +1,13 @@
 // Solid densities, from mesh to grid.
 
 #include "libvox/core/error.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/convert.h"
 #include "tests/scenes.h"
 #include "tests/shapes.h"
 #include "tests/spline_torus.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <cmath>
 #include <sstream>
@@ -39,11 +39,6 @@ bool isOn(const Conversion& conversion, const Vec3d& world) {
       .isValueOn(Coord::round(openvdb::Vec3d(index.x(), index.y(), index.z())));
 }
 
-PolygonMesh scaled(PolygonMesh mesh, double factor) {
-  for (Vec3d& p : mesh.points) p *= factor;
-  return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("the volume of a solid torus converges to that of its spline with order 1",
@@ -66,12 +61,12 @@ TEST_CASE("the volume of a solid torus converges to that of its spline with orde
 }
 
 TEST_CASE("an inward shell is a cavity, and what lies in it is solid", "[solid]") {
-  const PolygonMesh outer = scaled(test::cube(), 4);
-  const PolygonMesh cavity = test::insideOut(scaled(test::cube(), 2.5));
+  const PolygonMesh outer = test::scaled(test::cube(), 4);
+  const PolygonMesh cavity = test::insideOut(test::scaled(test::cube(), 2.5));
   const PolygonMesh core = test::cube();
   PolygonMesh all = test::together(outer, cavity, Vec3d(0, 0, 0));
   all = test::together(all, core, Vec3d(0, 0, 0));
-  const PolygonMesh plate = scaled(test::cube(), 0.5);
+  const PolygonMesh plate = test::scaled(test::cube(), 0.5);
 
   for (const bool asPolygons : {false, true}) {
     ConvertOptions options = solidAt(0.1);
@@ -97,7 +92,7 @@ TEST_CASE("an inward shell is a cavity, and what lies in it is solid", "[solid]"
 
 TEST_CASE("an outward shell within another is solid like all of it", "[solid]") {
   const PolygonMesh nested =
-      test::together(scaled(test::cube(), 4), scaled(test::cube(), 2), Vec3d(0, 0, 0));
+      test::together(test::scaled(test::cube(), 4), test::scaled(test::cube(), 2), Vec3d(0, 0, 0));
   const Conversion conversion = convert(sceneOf({nested}), solidAt(0.1));
   for (const double x : {0.0, 1.0, 2.0, 3.0}) CHECK(isOn(conversion, Vec3d(x, 0, 0)));
   CHECK_FALSE(isOn(conversion, Vec3d(4.5, 0, 0)));
@@ -149,7 +144,7 @@ TEST_CASE("a voxel is opaque in Blender, whatever the unit of length", "[solid]"
   const auto valueFor = [](double voxelSize, Target target) {
     ConvertOptions options = solidAt(voxelSize);
     options.volume.target = target;
-    const Scene scene = sceneOf({scaled(test::cube(), 20 * voxelSize)});
+    const Scene scene = sceneOf({test::scaled(test::cube(), 20 * voxelSize)});
     return densityOf(convert(scene, options)).cbeginValueOn().getValue();
   };
   // Beer-Lambert: exp(-value * length) of the light passes.

@@ -6,6 +6,7 @@
 #include "libvox/prepare/repair.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/global_surface.h"
+#include "tests/repaired_level.h"
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
@@ -35,13 +36,6 @@ Marked mark(const SubdivisionLevel& base, const SurfaceOptions& options, Progres
 Marked mark(const SubdivisionLevel& base, const SurfaceOptions& options) {
   Progress unwatched;
   return mark(base, options, unwatched);
-}
-
-SubdivisionLevel scaled(PolygonMesh mesh, double size) {
-  RepairReport report;
-  mesh = repair(std::move(mesh), {}, report);
-  for (Vec3d& p : mesh.points) p *= size;
-  return baseLevel(std::move(mesh), BoundaryRule::kExtend);
 }
 
 /// Voxels that a vertex is within a distance of being rounded to, if it is near more than one.
@@ -81,7 +75,7 @@ std::size_t differences(const openvdb::MaskTree& a, const openvdb::MaskTree& b,
 
 /// A cube whose patches are split into tasks.
 SubdivisionLevel largeCube() {
-  return scaled(test::cube(), 600);
+  return test::repairedLevel(test::cube(), 600);
 }
 
 }  // namespace
@@ -91,7 +85,7 @@ TEST_CASE("the voxels do not depend on how a surface is cut into submeshes",
   for (const auto* shapes : {&test::shapes(), &test::openShapes()})
     for (const auto& shape : *shapes) {
       CAPTURE(shape.name);
-      const SubdivisionLevel base = scaled(shape.mesh, 17);
+      const SubdivisionLevel base = test::repairedLevel(shape.mesh, 17);
       const Marked plain = mark(base, {});
       for (const auto localize : {Localize::kBefore, Localize::kDuring})
         for (const Index faces : {1U, 7U, 1000U}) {
@@ -130,15 +124,15 @@ TEST_CASE("the whole mesh level by level has the voxels of its submeshes, but fo
   for (const auto* shapes : {&test::shapes(), &test::openShapes()})
     for (const auto& shape : *shapes) {
       CAPTURE(shape.name);
-      compare(scaled(shape.mesh, 17));
+      compare(test::repairedLevel(shape.mesh, 17));
     }
   for (const double size : {64.0, 99.9}) {
     CAPTURE(size);
-    compare(scaled(test::cube(), size));  // full of exact ties
-    compare(scaled(test::dodecahedron(), size));
+    compare(test::repairedLevel(test::cube(), size));  // full of exact ties
+    compare(test::repairedLevel(test::dodecahedron(), size));
   }
-  compare(scaled(test::prism(80), 70));  // full of thin patches
-  compare(scaled(test::pyramid(90), 50.5));
+  compare(test::repairedLevel(test::prism(80), 70));  // full of thin patches
+  compare(test::repairedLevel(test::pyramid(90), 50.5));
   CAPTURE(ties);
   CHECK(ties < 1000);
 }
@@ -183,7 +177,9 @@ TEST_CASE("the bar moves evenly while a surface is made, also when it is one sub
     progress.plan(1);
     progress.beginLast("surface");
     // At this size most of the vertices lie in patches that are split.
-    onThreads(1, [&] { return mark(scaled(test::cube(), 1500), {localize, 256}, progress); });
+    onThreads(1, [&] {
+      return mark(test::repairedLevel(test::cube(), 1500), {localize, 256}, progress);
+    });
     CAPTURE(localizeName(localize), calls, largestStep);
     CHECK(calls > 100);
     CHECK(largestStep < 0.1);
@@ -206,7 +202,7 @@ TEST_CASE("a surface that is cancelled stops at the next submesh or split patch"
       progress.plan(1);
       progress.beginLast("surface");
       const SubdivisionLevel base =
-          localize == Localize::kOff ? scaled(test::cube(), 60) : largeCube();
+          localize == Localize::kOff ? test::repairedLevel(test::cube(), 60) : largeCube();
       CAPTURE(localizeName(localize), threads);
       CHECK_THROWS_AS(onThreads(threads,
                                 [&] {
@@ -239,7 +235,7 @@ TEST_CASE("a smooth surface takes few vertices for each voxel", "[pipeline]") {
   // Squares of half a voxel at the finest, three voxels for two of area (6-separating): less than
   // 4 / 1.5; patches are as fine as their largest face asks for, which may be twice as fine.
   for (const double size : {40.0, 61.0, 83.0}) {
-    const Marked marked = mark(scaled(test::torusGrid(32, 16), size), {});
+    const Marked marked = mark(test::repairedLevel(test::torusGrid(32, 16), size), {});
     const double vertices =
         std::accumulate(marked.report.vertices.begin(), marked.report.vertices.end(), 0.0);
     const auto voxels = static_cast<double>(marked.tree->activeVoxelCount());

@@ -9,6 +9,7 @@
 #include "libvox/subdivide/sizes.h"
 #include "libvox/subdivide/stop.h"
 #include "libvox/subdivide/vertex_split.h"
+#include "tests/repaired_level.h"
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
@@ -159,13 +160,6 @@ Patch scaled(Patch patch, double scale) {
   for (auto& row : patch.points)
     for (Vec3d& point : row) point *= scale;
   return patch;
-}
-
-SubdivisionLevel scaled(PolygonMesh mesh, double size) {
-  RepairReport report;
-  mesh = repair(std::move(mesh), {}, report);
-  for (Vec3d& p : mesh.points) p *= size;
-  return baseLevel(std::move(mesh), BoundaryRule::kExtend);
 }
 
 openvdb::MaskGrid marked(const SubdivisionLevel& base, SurfaceReport& report) {
@@ -396,7 +390,7 @@ TEST_CASE("no path of inactive voxels leads into a surface around faces of many 
     for (const double size : {41.0, 60.5, 77.3}) {
       CAPTURE(name, size);
       SurfaceReport report;
-      openvdb::MaskGrid mask = marked(scaled(mesh, size), report);
+      openvdb::MaskGrid mask = marked(test::repairedLevel(mesh, size), report);
       const openvdb::Coord centre = voxelOf(size * inside);
       CHECK_FALSE(isReachedFromOutside(mask, centre));
       const int end = mask.evalActiveVoxelBoundingBox().max().x();

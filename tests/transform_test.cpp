@@ -1,10 +1,10 @@
 #include "libvox/grid/transform.h"
 
 #include "libvox/core/error.h"
+#include "libvox/grid/openvdb.h"
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
-#include <openvdb/openvdb.h>
 
 #include <limits>
 

@@ -3,6 +3,7 @@
 #include "libvox/prepare/repair.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/local_vertices.h"
+#include "tests/repaired_level.h"
 #include "tests/shapes.h"
 #include "tests/spline_torus.h"
 
@@ -23,11 +24,6 @@ namespace {
 Vec3d limitNormal(const Patch& patch, std::int64_t i, std::int64_t n, std::int64_t j,
                   std::int64_t m) {
   return LimitNormals(patch, SplinePlace::ofVertex(i, n)).at(SplinePlace::ofVertex(j, m));
-}
-
-SubdivisionLevel prepared(const PolygonMesh& mesh, BoundaryRule rule = BoundaryRule::kExtend) {
-  RepairReport report;
-  return baseLevel(repair(mesh, {}, report), rule);
 }
 
 double degrees(const Vec3d& a, const Vec3d& b) {
@@ -127,7 +123,7 @@ TEST_CASE("normals of patches are those of the B-spline", "[subdivide][normals][
 
 TEST_CASE("the normal of any vertex is that of its V-face", "[subdivide][normals][property]") {
   for (const PolygonMesh& mesh : closedShapes())
-    forVertices(prepared(mesh), [&](const LevelOneVertex& vertex, const auto&, auto&) {
+    forVertices(test::repairedLevel(mesh), [&](const LevelOneVertex& vertex, const auto&, auto&) {
       for (const int k : {0, 1, 3}) {
         const VertexArray array = arrayOf(vertex, k);
         const VertexArray deeper = arrayOf(vertex, k + 1);
@@ -143,7 +139,7 @@ TEST_CASE("the normal of any vertex is that of its V-face", "[subdivide][normals
 
 TEST_CASE("normals are what faces six levels deeper turn to", "[subdivide][normals][property]") {
   for (const PolygonMesh& mesh : {test::tetrahedron(), test::cube(), test::prism(5)}) {
-    const SubdivisionLevel base = prepared(mesh);
+    const SubdivisionLevel base = test::repairedLevel(mesh);
     const FaceNormals faces(subdivide(base, 7).mesh);
     forVertices(base, [&](const LevelOneVertex& vertex, const auto&, auto&) {
       const VertexArray array = arrayOf(vertex, 0);
@@ -161,7 +157,7 @@ TEST_CASE("normals are what faces six levels deeper turn to", "[subdivide][norma
 
 TEST_CASE("rows of normals have the bits of single ones", "[subdivide][normals]") {
   for (const PolygonMesh& mesh : closedShapes())
-    forVertices(prepared(mesh), [&](const LevelOneVertex& vertex, const auto&, auto&) {
+    forVertices(test::repairedLevel(mesh), [&](const LevelOneVertex& vertex, const auto&, auto&) {
       const VertexArray array = arrayOf(vertex, 3);
       std::vector<Vec3d> row(6);
       for (std::int64_t i = 0; i < array.sizeU(); ++i) {
@@ -179,16 +175,17 @@ TEST_CASE("whether normals are wanted never shows in points", "[subdivide][norma
   for (const auto* shapes : {&test::shapes(), &test::openShapes()})
     for (const auto& shape : *shapes) {
       CAPTURE(shape.name);
-      forVertices(prepared(shape.mesh), [&](const LevelOneVertex& vertex, const auto&, auto&) {
-        for (const std::uint8_t k : {std::uint8_t{0}, std::uint8_t{2}}) {
-          VertexArray plain;
-          plain.set(vertex, {k, k});
-          const VertexArray array = arrayOf(vertex, k);
-          for (std::int64_t i = 0; i < array.sizeU(); ++i)
-            for (std::int64_t j = 0; j < array.sizeV(); ++j)
-              CHECK(array.at(i, j) == plain.at(i, j));
-        }
-      });
+      forVertices(test::repairedLevel(shape.mesh),
+                  [&](const LevelOneVertex& vertex, const auto&, auto&) {
+                    for (const std::uint8_t k : {std::uint8_t{0}, std::uint8_t{2}}) {
+                      VertexArray plain;
+                      plain.set(vertex, {k, k});
+                      const VertexArray array = arrayOf(vertex, k);
+                      for (std::int64_t i = 0; i < array.sizeU(); ++i)
+                        for (std::int64_t j = 0; j < array.sizeV(); ++j)
+                          CHECK(array.at(i, j) == plain.at(i, j));
+                    }
+                  });
     }
 }
 
@@ -197,7 +194,8 @@ TEST_CASE("normals on a boundary are those that rows beside it come to", "[subdi
   std::size_t tried = 0;
   for (const PolygonMesh& mesh :
        {test::sheet(3, 2), test::openFan(1, 5), test::openFan(3, 4), test::tube(5, 2)})
-    forVertices(prepared(mesh), [&](const LevelOneVertex& vertex, const auto& c, auto& vertices) {
+    forVertices(test::repairedLevel(mesh), [&](const LevelOneVertex& vertex, const auto& c,
+                                               auto& vertices) {
       const VertexArray array = arrayOf(vertex, 1);
       const VertexArray deeper = arrayOf(vertex, 1 + kDeeper);
       std::array<Vec3d, 2> normals;
@@ -233,25 +231,26 @@ TEST_CASE("a flat sheet has one normal, missing faces or not", "[subdivide][norm
                            test::openFan(4, 3), test::openFan(2, 4)}) {
     for (Vec3d& p : mesh.points) p = Vec3d(7, 8, 9) + p.x() * x + p.y() * y;
     for (const BoundaryRule rule : {BoundaryRule::kExtend, BoundaryRule::kFree})
-      forVertices(prepared(mesh, rule), [&](const LevelOneVertex& vertex, const auto&, auto&) {
-        for (const int k : {0, 1, 2}) {
-          const VertexArray array = arrayOf(vertex, k);
-          // Of an array without all its faces, what is next to them.
-          const Vec3d corner = array.normalAt(array.sizeU() - 1, array.sizeV() - 1);
-          CHECK((corner - normal).norm() < 1e-12);
-          if (!vertex.whole()) continue;
-          for (std::int64_t i = 0; i < array.sizeU(); ++i)
-            for (std::int64_t j = 0; j < array.sizeV(); ++j)
-              CHECK((array.normalAt(i, j) - normal).norm() < 1e-12);
-        }
-      });
+      forVertices(test::repairedLevel(mesh, rule),
+                  [&](const LevelOneVertex& vertex, const auto&, auto&) {
+                    for (const int k : {0, 1, 2}) {
+                      const VertexArray array = arrayOf(vertex, k);
+                      // Of an array without all its faces, what is next to them.
+                      const Vec3d corner = array.normalAt(array.sizeU() - 1, array.sizeV() - 1);
+                      CHECK((corner - normal).norm() < 1e-12);
+                      if (!vertex.whole()) continue;
+                      for (std::int64_t i = 0; i < array.sizeU(); ++i)
+                        for (std::int64_t j = 0; j < array.sizeV(); ++j)
+                          CHECK((array.normalAt(i, j) - normal).norm() < 1e-12);
+                    }
+                  });
   }
 }
 
 TEST_CASE("at a free boundary, normals keep near those of the faces that are there",
           "[subdivide][normals]") {
   PolygonMesh mesh = test::sheet(4, 3);
-  const SubdivisionLevel base = prepared(mesh, BoundaryRule::kFree);
+  const SubdivisionLevel base = test::repairedLevel(mesh, BoundaryRule::kFree);
   const FaceNormals faces(subdivide(base, 7).mesh);
   forVertices(base, [&](const LevelOneVertex& vertex, const auto&, auto&) {
     const VertexArray array = arrayOf(vertex, 4);

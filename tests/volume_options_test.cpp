@@ -1,12 +1,13 @@
 #include "libvox/grid/volume_options.h"
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/convert.h"
+#include "tests/conversion.h"
 #include "tests/shapes.h"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,12 +28,6 @@ ConvertOptions coarse() {
   options.voxelSize = 0.05;
   options.grids = std::vector{GridKind::kDensity, GridKind::kMask};
   return options;
-}
-
-std::string bytesOf(const Conversion& conversion) {
-  std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
-  writeGrids(stream, conversion);
-  return stream.str();
 }
 
 openvdb::GridPtrVecPtr readBack(const std::string& bytes) {
@@ -119,7 +114,7 @@ TEST_CASE("compression changes the size of a file, not what is in it", "[volume]
     Conversion conversion;
     conversion.grids = {grid};
     conversion.compression = compression;
-    const std::string bytes = bytesOf(conversion);
+    const std::string bytes = test::bytesOf(conversion);
     sizes.push_back(bytes.size());
     const auto read = openvdb::gridPtrCast<openvdb::FloatGrid>(readBack(bytes)->at(0));
     REQUIRE(read->activeVoxelCount() == grid->activeVoxelCount());
@@ -134,9 +129,9 @@ TEST_CASE("half floats are read back as floats, near the same", "[volume]") {
   ConvertOptions options = coarse();
   options.volume.gain = 1.0 / 3;
   options.volume.compression = Compression::kPlain;
-  const std::string fullBytes = bytesOf(convert(pyramidScene(), options));
+  const std::string fullBytes = test::bytesOf(convert(pyramidScene(), options));
   options.volume.half = true;
-  const std::string halfBytes = bytesOf(convert(pyramidScene(), options));
+  const std::string halfBytes = test::bytesOf(convert(pyramidScene(), options));
   CHECK(halfBytes.size() < fullBytes.size());
   const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(readBack(halfBytes)->at(0));
   for (auto value = density->cbeginValueOn(); value; ++value)

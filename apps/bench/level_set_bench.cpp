@@ -6,6 +6,7 @@
 #include "apps/bench/inputs.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/pipeline/limit_polygons.h"
 #include "libvox/subdivide/doo_sabin.h"
@@ -13,7 +14,6 @@
 #include "libvox/volume/level_set.h"
 
 #include <benchmark/benchmark.h>
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <array>

@@ -2,10 +2,10 @@
 // a given edge, both targets, beside OpenVDB's meshToVolume (unsigned, thinnest band) on the same
 // triangles in the same run. `vox_scan_bench --benchmark_format=json` prints JSON.
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/voxelize/scan.h"
 
 #include <benchmark/benchmark.h>
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
 #include <tbb/global_control.h>
 

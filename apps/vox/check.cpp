@@ -6,13 +6,13 @@
 #include "libvox/core/error.h"
 #include "libvox/core/names.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/inspect/components.h"
 #include "libvox/inspect/lint.h"
 #include "libvox/inspect/topology.h"
 #include "libvox/io/read_vdb.h"
 
 #include <nlohmann/json.hpp>
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <iostream>

@@ -4,9 +4,9 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/version.h"
+#include "libvox/grid/openvdb.h"
 
 #include <nlohmann/json.hpp>
-#include <openvdb/openvdb.h>
 
 #include <sstream>
 

@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/inspect/lint.h"
 #include "libvox/inspect/topology.h"
@@ -11,8 +12,6 @@
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/refined_polygons.h"
 #include "libvox/subdivide/stop.h"
-
-#include <openvdb/openvdb.h>
 
 namespace vox::app {
 namespace {

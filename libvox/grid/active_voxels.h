@@ -3,8 +3,8 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/types.h"
 #include "libvox/grid/merge_leaf.h"
+#include "libvox/grid/openvdb.h"
 
-#include <openvdb/openvdb.h>
 #include <tbb/concurrent_unordered_map.h>
 #include <tbb/concurrent_unordered_set.h>
 #include <tbb/spin_mutex.h>

@@ -2,8 +2,8 @@
 
 #include "libvox/core/types.h"
 #include "libvox/grid/merge_leaf.h"
+#include "libvox/grid/openvdb.h"
 
-#include <openvdb/openvdb.h>
 #include <tbb/spin_mutex.h>
 
 #include <array>

@@ -1,12 +1,11 @@
 #pragma once
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/inspect/diff.h"
 #include "libvox/inspect/leaf_values.h"
 #include "libvox/inspect/topology.h"
 #include "libvox/inspect/tree_pair.h"
 #include "libvox/io/read_vdb.h"
-
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "libvox/core/types.h"
-
-#include <openvdb/openvdb.h>
+#include "libvox/grid/openvdb.h"
 
 #include <array>
 #include <cstddef>

@@ -4,12 +4,11 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/inspect/compared.h"
 #include "libvox/inspect/nearest_active.h"
 #include "libvox/inspect/tree_pair.h"
 #include "libvox/io/read_vdb.h"
-
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>

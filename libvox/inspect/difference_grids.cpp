@@ -1,12 +1,11 @@
 // What differs, as grids to look at.
 
 #include "libvox/core/version.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/inspect/compared.h"
 #include "libvox/inspect/diff.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/write_vdb.h"
-
-#include <openvdb/openvdb.h>
 
 namespace vox {
 namespace {

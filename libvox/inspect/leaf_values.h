@@ -1,8 +1,7 @@
 #pragma once
 
 #include "libvox/core/error.h"
-
-#include <openvdb/openvdb.h>
+#include "libvox/grid/openvdb.h"
 
 #include <memory>
 #include <string>

@@ -4,11 +4,11 @@
 #include "libvox/inspect/lint.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/inspect/leaf_values.h"
 #include "libvox/inspect/topology.h"
 #include "libvox/io/read_vdb.h"
 
-#include <openvdb/openvdb.h>
 #include <openvdb/tools/Diagnostics.h>
 
 #include <algorithm>

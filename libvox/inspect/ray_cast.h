@@ -1,9 +1,9 @@
 #pragma once
 
 #include "libvox/core/types.h"
+#include "libvox/grid/openvdb.h"
 
 #include <openvdb/math/Ray.h>
-#include <openvdb/openvdb.h>
 
 #include <memory>
 #include <optional>

@@ -2,12 +2,11 @@
 
 #include "libvox/core/names.h"
 #include "libvox/core/types.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/inspect/camera.h"
 #include "libvox/inspect/ray_cast.h"
 #include "libvox/inspect/visible.h"
 #include "libvox/volume/shading_normals.h"
-
-#include <openvdb/openvdb.h>
 
 #include <memory>
 #include <optional>

@@ -3,11 +3,10 @@
 #include "libvox/inspect/summary.h"
 
 #include "libvox/core/forest.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/io/read_vdb.h"
 #include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/winding_forest.h"
-
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include "libvox/grid/openvdb.h"
 
 namespace vox {
 

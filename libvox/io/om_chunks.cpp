@@ -13,7 +13,7 @@ namespace vox {
 
 namespace {
 
-constexpr std::size_t kHeaderBytes = 16;
+constexpr std::size_t kOmHeaderBytes = 16;
 constexpr std::uint8_t kNewestVersion = 2U << 5 | 2U;    // 2.2, written by OpenMesh 9
 constexpr std::uint8_t kHalfedgeVersion = 2U << 5;       // 2.0 and later store half-edges
 constexpr std::uint8_t kTypeNameVersion = 2U << 5 | 2U;  // custom properties have a type name
@@ -110,7 +110,7 @@ class ChunkFilter {
 };
 
 void ChunkFilter::readHeader() {
-  if (data_.size() < kHeaderBytes || !data_.starts_with("OM"))
+  if (data_.size() < kOmHeaderBytes || !data_.starts_with("OM"))
     fail("no OM file: it does not start with OM and a header of 16 bytes");
   take(2);
   header_ = {takeNumber<char>(), takeNumber<std::uint8_t>(), takeNumber<std::uint32_t>(),
@@ -127,7 +127,7 @@ void ChunkFilter::readHeader() {
     fail("damaged: the header promises " + std::to_string(header_.vertexCount) + " vertices, " +
          std::to_string(header_.edgeCount) + " edges, " + std::to_string(header_.faceCount) +
          " faces");
-  kept_ = data_.substr(0, kHeaderBytes);
+  kept_ = data_.substr(0, kOmHeaderBytes);
 }
 
 // Reads one chunk; returns false at the end. A missing sentinel is accepted, as OpenMesh does.

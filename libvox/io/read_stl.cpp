@@ -16,8 +16,8 @@ namespace vox {
 
 namespace {
 
-constexpr std::size_t kHeaderBytes = 84;  // 80 of comment, 4 of triangle count
-constexpr std::size_t kFacetBytes = 50;   // normal, 3 positions, 2 of attribute
+constexpr std::size_t kStlHeaderBytes = 84;  // 80 of comment, 4 of triangle count
+constexpr std::size_t kFacetBytes = 50;      // normal, 3 positions, 2 of attribute
 
 // Finds the point with a position; adds it if there is none. An open-addressing hash table of point
 // indices, at most half full. -0 equals +0.
@@ -68,14 +68,14 @@ class PointWelder {
 };
 
 std::uint64_t binaryTriangleCount(std::string_view data) {
-  return loadNumber<std::uint32_t>(data.data() + kHeaderBytes - 4, std::endian::little);
+  return loadNumber<std::uint32_t>(data.data() + kStlHeaderBytes - 4, std::endian::little);
 }
 
 // Whether the content has exactly the size that a binary header gives. (The first word decides
 // nothing: many binary files start with "solid".)
 bool isBinary(std::string_view data) {
-  return data.size() >= kHeaderBytes &&
-         data.size() == kHeaderBytes + kFacetBytes * binaryTriangleCount(data);
+  return data.size() >= kStlHeaderBytes &&
+         data.size() == kStlHeaderBytes + kFacetBytes * binaryTriangleCount(data);
 }
 
 PolygonMesh parseBinary(std::string_view data, const std::string& fileName) {
@@ -83,7 +83,7 @@ PolygonMesh parseBinary(std::string_view data, const std::string& fileName) {
   PointWelder welder(mesh.points);
   const std::uint64_t count = binaryTriangleCount(data);
   for (std::uint64_t f = 0; f < count; ++f) {
-    const char* at = data.data() + kHeaderBytes + kFacetBytes * f + 12;  // skips the normal
+    const char* at = data.data() + kStlHeaderBytes + kFacetBytes * f + 12;  // skips the normal
     for (int corner = 0; corner < 3; ++corner) {
       Vec3d position;
       for (int axis = 0; axis < 3; ++axis, at += 4)
@@ -190,12 +190,12 @@ void TextParser::failExpected(std::string_view keyword, std::string_view token) 
 }
 
 [[noreturn]] void failNeither(std::string_view data, const std::string& fileName) {
-  if (data.size() < kHeaderBytes)
+  if (data.size() < kStlHeaderBytes)
     throw InputError(fileName + ": no STL file: neither \"solid\" nor a header of 84 bytes");
   const std::uint64_t count = binaryTriangleCount(data);
   throw InputError(fileName + ": no STL file, or damaged: " + std::to_string(count) +
                    " triangles in the header take " +
-                   std::to_string(kHeaderBytes + kFacetBytes * count) + " bytes, the file has " +
+                   std::to_string(kStlHeaderBytes + kFacetBytes * count) + " bytes, the file has " +
                    std::to_string(data.size()));
 }
 

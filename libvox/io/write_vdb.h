@@ -1,8 +1,7 @@
 #pragma once
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/volume_options.h"
-
-#include <openvdb/openvdb.h>
 
 #include <iosfwd>
 #include <optional>

@@ -7,7 +7,7 @@
 namespace vox {
 namespace {
 
-constexpr Index kVerticesPerTask = 4096;
+constexpr Index kKindsPerTask = 4096;
 constexpr Index kFewestForFace = 3;
 
 VertexKind kindOf(const PolygonMesh& mesh, const Adjacency& adjacency, Index corner, Index count) {
@@ -34,7 +34,7 @@ std::vector<VertexKind> vertexKinds(const PolygonMesh& mesh, const Adjacency& ad
     ++count[mesh.faceVertices[c]];
   }
   std::vector<VertexKind> kinds(mesh.pointCount(), VertexKind::kUnused);
-  parallelForEach(mesh.pointCount(), kVerticesPerTask, [&](Index v) {
+  parallelForEach(mesh.pointCount(), kKindsPerTask, [&](Index v) {
     if (corner[v] != kNone) kinds[v] = kindOf(mesh, adjacency, corner[v], count[v]);
   });
   return kinds;

@@ -2,12 +2,12 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/volume/texture.h"
 
 #include <Eigen/Geometry>
-#include <openvdb/openvdb.h>
 
 #include <optional>
 #include <span>

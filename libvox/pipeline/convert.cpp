@@ -8,6 +8,7 @@
 #include "libvox/core/progress.h"
 #include "libvox/core/stopwatch.h"
 #include "libvox/core/version.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/watched_stream.h"
@@ -23,8 +24,6 @@
 #include "libvox/pipeline/surface.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
-
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <span>

@@ -2,9 +2,8 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/volume_options.h"
-
-#include <openvdb/openvdb.h>
 
 #include <span>
 

@@ -4,6 +4,7 @@
 #include "libvox/pipeline/estimate.h"
 
 #include "libvox/core/numbered.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/voxel_means.h"
 #include "libvox/mesh/area_vector.h"
 #include "libvox/pipeline/distance.h"
@@ -13,8 +14,6 @@
 #include "libvox/prepare/enclosure.h"
 #include "libvox/subdivide/stop.h"
 #include "libvox/volume/level_set.h"
-
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>

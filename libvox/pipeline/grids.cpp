@@ -2,6 +2,7 @@
 
 #include "libvox/pipeline/grids.h"
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/distance.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/normals.h"
@@ -9,8 +10,6 @@
 #include "libvox/volume/density.h"
 #include "libvox/volume/fill.h"
 #include "libvox/volume/normal_grid.h"
-
-#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <numeric>

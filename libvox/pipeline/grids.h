@@ -3,13 +3,12 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/grid_kind.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/grid/volume_options.h"
 #include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/colors.h"
 #include "libvox/subdivide/level.h"
-
-#include <openvdb/openvdb.h>
 
 #include <cstdint>
 #include <memory>

@@ -2,11 +2,10 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/grid/volume_options.h"
 #include "libvox/mesh/polygon_mesh.h"
-
-#include <openvdb/openvdb.h>
 
 #include <span>
 #include <string>

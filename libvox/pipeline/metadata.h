@@ -1,9 +1,8 @@
 #pragma once
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/pipeline/convert.h"
-
-#include <openvdb/openvdb.h>
 
 namespace vox {
 

@@ -11,8 +11,8 @@
 namespace vox {
 namespace {
 
-constexpr Index kFacesPerTask = 1024;
-constexpr Index kVerticesPerTask = 4096;
+constexpr Index kImagesPerTask = 1024;
+constexpr Index kUnknownsPerTask = 4096;
 
 }  // namespace
 
@@ -77,9 +77,9 @@ void LiftSystem::imageOfFace(Index f, std::span<const Vec3d> positions) {
 }
 
 Eigen::Matrix3Xd LiftSystem::sumCorners(std::span<const Vec3d> positions) {
-  parallelForEach(mesh_.faceCount(), kFacesPerTask, [&](Index f) { imageOfFace(f, positions); });
+  parallelForEach(mesh_.faceCount(), kImagesPerTask, [&](Index f) { imageOfFace(f, positions); });
   Eigen::Matrix3Xd sums(3, rows());
-  parallelForEach(rows(), kVerticesPerTask, [&](Index row) {
+  parallelForEach(rows(), kUnknownsPerTask, [&](Index row) {
     Vec3d sum = images_[corners_[cornerOffsets_[row]]];
     for (Index k = cornerOffsets_[row] + 1; k < cornerOffsets_[row + 1]; ++k)
       sum += images_[corners_[k]];
@@ -89,7 +89,7 @@ Eigen::Matrix3Xd LiftSystem::sumCorners(std::span<const Vec3d> positions) {
 }
 
 Eigen::Matrix3Xd LiftSystem::multiply(const Eigen::Ref<const Eigen::Matrix3Xd>& x) {
-  parallelForEach(rows(), kVerticesPerTask,
+  parallelForEach(rows(), kUnknownsPerTask,
                   [&](Index row) { positions_[vertices_[row]] = x.col(row); });
   return sumCorners(positions_);
 }

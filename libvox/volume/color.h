@@ -1,8 +1,8 @@
 #pragma once
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 
-#include <openvdb/openvdb.h>
 #include <openvdb/tree/LeafManager.h>
 
 namespace vox {

@@ -11,9 +11,9 @@ namespace vox {
 namespace {
 
 using MaskPage = openvdb::MaskTree::RootNodeType::ChildNodeType::ChildNodeType;
-using Upper = openvdb::Vec3STree::RootNodeType::ChildNodeType;
-using Page = Upper::ChildNodeType;
-using Leaf = Page::ChildNodeType;
+using NormalUpper = openvdb::Vec3STree::RootNodeType::ChildNodeType;
+using NormalPage = NormalUpper::ChildNodeType;
+using NormalLeaf = NormalPage::ChildNodeType;
 
 const openvdb::Vec3s kZero(0, 0, 0);
 
@@ -26,19 +26,20 @@ openvdb::Vec3s directionOf(const VoxelMeans::Sum& sum) {
 }
 
 /// @param sum  of its first active voxel; the others' follow
-std::unique_ptr<Leaf> leafOf(const MaskPage::ChildNodeType& mask, const VoxelMeans::Sum* sum) {
-  auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), mask.origin(), kZero);
+std::unique_ptr<NormalLeaf> leafOf(const MaskPage::ChildNodeType& mask,
+                                   const VoxelMeans::Sum* sum) {
+  auto leaf = std::make_unique<NormalLeaf>(openvdb::PartialCreate(), mask.origin(), kZero);
   leaf->setValueMask(mask.valueMask());
   leaf->allocate();
   // Once over its memory: most of the time goes there.
   openvdb::Vec3s* const values = leaf->buffer().data();
-  for (openvdb::Index i = 0; i < Leaf::SIZE; ++i)
+  for (openvdb::Index i = 0; i < NormalLeaf::SIZE; ++i)
     values[i] = mask.isValueOn(i) ? directionOf(*sum++) : kZero;
   return leaf;
 }
 
-std::unique_ptr<Page> pageOf(const MaskPage& mask, const VoxelMeans& means) {
-  auto page = std::make_unique<Page>(mask.origin(), kZero);
+std::unique_ptr<NormalPage> pageOf(const MaskPage& mask, const VoxelMeans& means) {
+  auto page = std::make_unique<NormalPage>(mask.origin(), kZero);
   for (auto leaf = mask.cbeginChildOn(); leaf; ++leaf)
     page->addLeaf(leafOf(*leaf, means.sumsOf(leaf->origin())).release());
   return page;
@@ -49,14 +50,15 @@ std::unique_ptr<Page> pageOf(const MaskPage& mask, const VoxelMeans& means) {
 openvdb::Vec3SGrid::Ptr normalGrid(const openvdb::MaskGrid& mask, const VoxelMeans& means) {
   std::vector<const MaskPage*> maskPages;
   mask.tree().getNodes(maskPages);
-  std::vector<std::unique_ptr<Page>> pages(maskPages.size());
+  std::vector<std::unique_ptr<NormalPage>> pages(maskPages.size());
   parallelForEach(pages.size(), 1, [&](std::size_t i) { pages[i] = pageOf(*maskPages[i], means); });
 
   auto tree = std::make_shared<openvdb::Vec3STree>(kZero);
   for (auto& page : pages) {
     const openvdb::Coord origin = page->origin();
-    if (tree->probeNode<Upper>(origin) == nullptr) tree->root().addChild(new Upper(origin, kZero));
-    tree->probeNode<Upper>(origin)->addChild(page.release());
+    if (tree->probeNode<NormalUpper>(origin) == nullptr)
+      tree->root().addChild(new NormalUpper(origin, kZero));
+    tree->probeNode<NormalUpper>(origin)->addChild(page.release());
   }
   auto grid = openvdb::Vec3SGrid::create(tree);
   grid->setTransform(mask.transform().copy());

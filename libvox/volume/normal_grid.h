@@ -1,8 +1,7 @@
 #pragma once
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/voxel_means.h"
-
-#include <openvdb/openvdb.h>
 
 namespace vox {
 

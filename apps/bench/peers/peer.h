@@ -1,9 +1,9 @@
 #pragma once
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/mesh/polygon_mesh.h"
 
 #include <CLI/CLI.hpp>
-#include <openvdb/openvdb.h>
 
 #include <functional>
 #include <span>
