@@ -1,4 +1,4 @@
-#include "libvox/inspect/render.h"
+#include "libvox/render/render.h"
 
 #include "libvox/core/error.h"
 #include "libvox/core/progress.h"

@@ -1,6 +1,6 @@
 // vox render: a picture of a .vdb file, or of what a mesh or scene becomes.
 
-#include "libvox/inspect/render.h"
+#include "libvox/render/render.h"
 
 #include "apps/vox/command.h"
 #include "apps/vox/interrupt.h"

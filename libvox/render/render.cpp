@@ -1,6 +1,6 @@
 // A ray or more for every pixel, in tiles.
 
-#include "libvox/inspect/render.h"
+#include "libvox/render/render.h"
 
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"

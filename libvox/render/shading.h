@@ -2,9 +2,9 @@
 
 #include "libvox/core/names.h"
 #include "libvox/core/types.h"
-#include "libvox/inspect/camera.h"
-#include "libvox/inspect/ray_cast.h"
-#include "libvox/inspect/visible.h"
+#include "libvox/render/camera.h"
+#include "libvox/render/ray_cast.h"
+#include "libvox/render/visible.h"
 #include "libvox/volume/shading_normals.h"
 
 #include <openvdb/openvdb.h>

@@ -1,6 +1,6 @@
 // Which grids to show, and which of their voxels.
 
-#include "libvox/inspect/visible.h"
+#include "libvox/render/visible.h"
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"

@@ -1,6 +1,6 @@
 // Normals, lamps and the sky.
 
-#include "libvox/inspect/shading.h"
+#include "libvox/render/shading.h"
 
 #include <Eigen/Geometry>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "libvox/inspect/camera.h"
-#include "libvox/inspect/shading.h"
-#include "libvox/inspect/visible.h"
 #include "libvox/io/image.h"
+#include "libvox/render/camera.h"
+#include "libvox/render/shading.h"
+#include "libvox/render/visible.h"
 
 #include <cstdint>
 #include <vector>
