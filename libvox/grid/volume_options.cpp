@@ -43,12 +43,6 @@ std::string gridNameFor(GridKind kind, const VolumeOptions& options) {
   return name == "normal" ? "N" : name == "color" ? "Cd" : name;
 }
 
-Turn turnOf(const VolumeOptions& options) {
-  const UpAxis targetUp = options.target == Target::kHoudini ? UpAxis::kY : UpAxis::kZ;
-  if (options.up.value_or(targetUp) == targetUp) return Turn::kNoTurn;
-  return targetUp == UpAxis::kZ ? Turn::kYToZ : Turn::kZToY;
-}
-
 void requireValid(const VolumeOptions& options) {
   requireBetween(options.gain, 1e-30, 1e30, "the gain");
   requireBetween(options.band, 1, 1000, "the band");

@@ -2,7 +2,6 @@
 
 #include "libvox/core/names.h"
 #include "libvox/grid/grid_kind.h"
-#include "libvox/grid/transform.h"
 
 #include <optional>
 #include <string>
@@ -64,9 +63,6 @@ VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second
 
 /// Name of a grid in a file.
 std::string gridNameFor(GridKind kind, const VolumeOptions& options);
-
-/// How an input is turned about the x axis on its way into the grid.
-Turn turnOf(const VolumeOptions& options);
 
 /// @throws UsageError  a number is out of range
 void requireValid(const VolumeOptions& options);

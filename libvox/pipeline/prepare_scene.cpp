@@ -25,7 +25,8 @@ GridTransform chooseTransform(const Box& box, const Scene& scene, const ConvertO
   const int dim = (fromOptions ? options.dim : scene.dim).value_or(kDefaultDim);
   GridTransform transform =
       voxelSize ? transformForVoxelSize(*voxelSize) : transformForDim(box, dim);
-  transform.turn = turnOf(overriding(options.volume, scene.volume));
+  const VolumeOptions volume = overriding(options.volume, scene.volume);
+  transform.turn = turnFor(volume.up, volume.target.value_or(Target::kBlender));
   requireInRange(box, transform);
   return transform;
 }
