@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Fails on an include that runs against the ranks of libvox/README.md:
-# core < mesh < grid < stages (which never include each other) < pipeline, inspect, render < apps < tests.
+# core < mesh, options < grid < stages (which never include each other) < pipeline, inspect, render < apps < tests.
 set -euo pipefail
 cd "$1"
 
 rank() {
   case $1 in
     libvox/core) echo 0 ;;
-    libvox/mesh) echo 1 ;;
+    libvox/mesh | libvox/options) echo 1 ;;
     libvox/grid) echo 2 ;;
     libvox/io | libvox/prepare | libvox/localize | libvox/subdivide | libvox/voxelize | libvox/volume) echo 3 ;;
     libvox/pipeline | libvox/inspect | libvox/render) echo 4 ;;

@@ -1,4 +1,4 @@
-#include "libvox/grid/volume_options.h"
+#include "libvox/options/volume_options.h"
 
 #include "libvox/pipeline/convert.h"
 #include "tests/shapes.h"

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "libvox/core/types.h"
-#include "libvox/grid/volume_options.h"
 #include "libvox/mesh/polygon_mesh.h"
+#include "libvox/options/volume_options.h"
 
 #include <limits>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/stop_rule.h"
 #include "libvox/voxelize/scan.h"
 
 #include <string>

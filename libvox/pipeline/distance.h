@@ -2,7 +2,7 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
-#include "libvox/grid/volume_options.h"
+#include "libvox/options/volume_options.h"
 
 #include <openvdb/openvdb.h>
 

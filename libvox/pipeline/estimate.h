@@ -2,8 +2,8 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
-#include "libvox/grid/grid_kind.h"
-#include "libvox/grid/volume_options.h"
+#include "libvox/options/grid_kind.h"
+#include "libvox/options/volume_options.h"
 #include "libvox/pipeline/surface.h"
 
 #include <span>

@@ -3,8 +3,8 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/transform.h"
-#include "libvox/grid/volume_options.h"
 #include "libvox/mesh/polygon_mesh.h"
+#include "libvox/options/volume_options.h"
 
 #include <openvdb/openvdb.h>
 

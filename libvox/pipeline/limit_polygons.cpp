@@ -3,7 +3,7 @@
 #include "libvox/pipeline/limit_polygons.h"
 
 #include "libvox/core/parallel.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/stop_rule.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/image_vertices.h"

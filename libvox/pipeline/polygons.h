@@ -3,7 +3,7 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/surface_grid.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/stop_rule.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/subdivide/level.h"
 #include "libvox/voxelize/scan.h"

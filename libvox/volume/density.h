@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/grid/volume_options.h"
+#include "libvox/options/volume_options.h"
 
 #include <openvdb/openvdb.h>
 

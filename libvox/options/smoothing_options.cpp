@@ -1,6 +1,6 @@
 // Which smoothing options prevail.
 
-#include "libvox/mesh/smoothing.h"
+#include "libvox/options/smoothing_options.h"
 
 namespace vox {
 

@@ -1,6 +1,6 @@
 // The parameters of solid textures as text: one table says what there is, reads and writes it.
 
-#include "libvox/grid/texture_spec.h"
+#include "libvox/options/texture_spec.h"
 
 #include "libvox/core/color.h"
 #include "libvox/core/error.h"

@@ -1,6 +1,6 @@
 // Options of volumes.
 
-#include "libvox/grid/volume_options.h"
+#include "libvox/options/volume_options.h"
 
 #include "libvox/core/error.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "libvox/core/names.h"
-#include "libvox/grid/grid_kind.h"
+#include "libvox/options/grid_kind.h"
 
 #include <optional>
 #include <string>
