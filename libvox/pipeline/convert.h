@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/grid/grid_base.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/options/grid_kind.h"
