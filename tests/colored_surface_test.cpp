@@ -1,11 +1,13 @@
 #include "libvox/subdivide/colored_surface.h"
 
+#include "libvox/core/memory.h"
 #include "libvox/core/numbered.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/surface_grid.h"
 #include "libvox/grid/transform.h"
 #include "libvox/grid/voxel.h"
 #include "libvox/grid/voxel_means.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/subdivide/doo_sabin.h"

@@ -3,6 +3,7 @@
 #include "libvox/core/parallel.h"
 
 #include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cstdlib>

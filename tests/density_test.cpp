@@ -1,6 +1,7 @@
 #include "libvox/volume/density.h"
 
 #include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
 
 TEST_CASE("density is 1 at the voxels of the mask and 0 elsewhere", "[volume]") {
   openvdb::MaskTree mask;

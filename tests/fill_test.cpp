@@ -6,6 +6,7 @@
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
 
 #include <random>
 #include <vector>

@@ -1,11 +1,16 @@
 #include "libvox/pipeline/polygons.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/surface_grid.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/refined_polygons.h"
 #include "libvox/subdivide/doo_sabin.h"
+#include "libvox/voxelize/scan.h"
 #include "tests/reference.h"
 #include "tests/shapes.h"
 

@@ -1,6 +1,7 @@
 #include "tests/reference.h"
 
 #include <Eigen/Geometry>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,10 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/progress.h"
+#include "libvox/render/visible.h"
 
 #include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <numbers>

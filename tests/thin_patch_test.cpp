@@ -1,5 +1,8 @@
 #include "libvox/subdivide/thin_patch.h"
 
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/surface_grid.h"
 #include "libvox/grid/voxel.h"
 #include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/surface.h"
@@ -12,6 +15,7 @@
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <limits>

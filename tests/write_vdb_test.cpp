@@ -6,6 +6,7 @@
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
+#include <openvdb/openvdb.h>
 
 #include <fstream>
 #include <sstream>

@@ -7,6 +7,7 @@
 #include "libvox/options/smoothing_options.h"
 #include "libvox/options/stop_rule.h"
 #include "libvox/options/volume_options.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/voxelize/scan.h"

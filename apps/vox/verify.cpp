@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/grid/transform.h"
 #include "libvox/inspect/lint.h"
 #include "libvox/inspect/topology.h"

@@ -10,6 +10,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/inspect/leaf_pieces.h"
 
+#include <openvdb/openvdb.h>
 #include <openvdb/tools/Morphology.h>
 
 #include <algorithm>

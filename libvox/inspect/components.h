@@ -1,8 +1,7 @@
 #pragma once
 
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/inspect/diff.h"
-
-#include <openvdb/openvdb.h>
 
 #include <cstdint>
 #include <memory>

@@ -5,6 +5,8 @@
 #include "libvox/core/parallel.h"
 #include "libvox/inspect/separation.h"
 
+#include <openvdb/openvdb.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "libvox/grid/merge_leaf.h"
-
-#include <openvdb/openvdb.h>
+#include "libvox/grid/openvdb_fwd.h"
 
 #include <cstdint>
 

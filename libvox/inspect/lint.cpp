@@ -4,6 +4,7 @@
 #include "libvox/inspect/lint.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/inspect/compared_types.h"
 #include "libvox/inspect/leaf_values.h"
 #include "libvox/inspect/topology.h"
 #include "libvox/io/read_vdb.h"
@@ -262,7 +263,7 @@ std::vector<LintFinding> lintVdb(const std::filesystem::path& file) {
     findings.add("no-density",
                  "there is no grid named density: Blender will show nothing until a material asks "
                  "for another");
-  const auto creator = vdb.metadata["creator"];
+  const auto creator = (*vdb.metadata)["creator"];
   if (creator && creator->str().starts_with("Houdini"))
     findings.add("creator", "the creator is Houdini: Blender will turn the object to Z up");
   for (const NamedGrid& named : vdb.grids) lint(*named.grid, all, named.name);

@@ -5,6 +5,8 @@
 
 #include "libvox/core/parallel.h"
 
+#include <openvdb/openvdb.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>

@@ -4,9 +4,12 @@
 
 #include "libvox/grid/voxel.h"
 #include "libvox/inspect/crossings.h"
+#include "libvox/options/voxelize.h"
+#include "libvox/voxelize/scan.h"
 #include "libvox/voxelize/triangulate.h"
 
 #include <Eigen/Geometry>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <array>

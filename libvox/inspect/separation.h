@@ -1,10 +1,9 @@
 #pragma once
 
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/inspect/diff.h"
 #include "libvox/mesh/polygon_mesh.h"
-#include "libvox/voxelize/scan.h"
-
-#include <openvdb/openvdb.h>
+#include "libvox/options/voxelize.h"
 
 #include <array>
 #include <cstdint>

@@ -3,6 +3,9 @@
 #include "libvox/inspect/topology.h"
 
 #include "libvox/core/error.h"
+#include "libvox/inspect/compared_types.h"
+
+#include <openvdb/openvdb.h>
 
 #include <memory>
 

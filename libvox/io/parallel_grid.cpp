@@ -5,6 +5,7 @@
 #include "libvox/core/parallel.h"
 
 #include <openvdb/io/io.h>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include "libvox/grid/openvdb_fwd.h"
+
+#include <memory>
 
 namespace vox {
 
@@ -8,6 +10,7 @@ namespace vox {
 /// compressed by OpenVDB on all threads, up to some 13 MB at a time, and come out in the same bytes
 /// as from the grid itself. Other grids than those of floats and vectors are returned as they are:
 /// of masks there is nothing to compress.
-openvdb::GridBase::ConstPtr writtenInParallel(const openvdb::GridBase::Ptr& grid);
+std::shared_ptr<const openvdb::GridBase> writtenInParallel(
+    const std::shared_ptr<openvdb::GridBase>& grid);
 
 }  // namespace vox

@@ -7,6 +7,7 @@
 #include "libvox/io/write_vdb.h"
 
 #include <openvdb/io/Stream.h>
+#include <openvdb/openvdb.h>
 
 #include <fstream>
 #include <map>
@@ -83,8 +84,8 @@ class Namer {
 VdbFile readVdb(const std::filesystem::path& file) {
   VdbFile all;
   Namer namer;
-  all.metadata = read(
-      file, [&](const openvdb::GridBase::Ptr& grid) { all.grids.push_back(namer.named(grid)); });
+  all.metadata = std::make_shared<openvdb::MetaMap>(read(
+      file, [&](const openvdb::GridBase::Ptr& grid) { all.grids.push_back(namer.named(grid)); }));
   return all;
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <openvdb/openvdb.h>
+#include "libvox/grid/openvdb_fwd.h"
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,12 @@ namespace vox {
 /// of that name.
 struct NamedGrid {
   std::string name;
-  openvdb::GridBase::Ptr grid;
+  std::shared_ptr<openvdb::GridBase> grid;
 };
 
 struct VdbFile {
   std::vector<NamedGrid> grids;
-  openvdb::MetaMap metadata;  ///< of the file
+  std::shared_ptr<const openvdb::MetaMap> metadata;  ///< of the file
 };
 
 /// Opens a .vdb file of any program. Values are loaded on demand from files of ours, whose hash

@@ -6,6 +6,7 @@
 #include "libvox/options/stop_rule.h"
 #include "libvox/options/texture_spec.h"
 #include "libvox/options/volume_options.h"
+#include "libvox/options/voxelize.h"
 
 #include <Eigen/Geometry>
 

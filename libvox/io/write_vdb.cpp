@@ -8,6 +8,7 @@
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <array>

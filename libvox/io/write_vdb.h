@@ -1,10 +1,10 @@
 #pragma once
 
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/options/volume_options.h"
 
-#include <openvdb/openvdb.h>
-
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,7 +17,7 @@ namespace vox {
 /// @param compression  default: Blosc, or else zip, or else none, whichever the library has
 /// @param stream  empty, readable, writable and seekable: std::fstream, std::stringstream
 /// @throws IoError  the stream fails
-void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& grids,
+void writeVdb(std::iostream& stream, const std::vector<std::shared_ptr<openvdb::GridBase>>& grids,
               const openvdb::MetaMap& fileMetadata, std::optional<Compression> compression = {});
 
 /// @throws UsageError  the library has no such compression

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "libvox/core/names.h"
-
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,14 +33,5 @@ std::optional<StopRule> stopRuleNamed(std::string_view name);
 
 /// For messages.
 std::string allStopRuleNames();
-
-/// How polygons or vertices become voxels.
-enum class Voxelize {
-  kAuto,     ///< whatever is fast for what is asked for
-  kVertex,   ///< every vertex blackens its voxel
-  kPolygon,  ///< polygons are scan-converted
-};
-inline constexpr NameTable<Voxelize, 3> kVoxelizeNames = {
-    {{Voxelize::kAuto, "auto"}, {Voxelize::kVertex, "vertex"}, {Voxelize::kPolygon, "polygon"}}};
 
 }  // namespace vox

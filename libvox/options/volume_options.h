@@ -45,6 +45,9 @@ inline constexpr NameTable<Target, 3> kTargetNames = {{{Target::kBlender, "blend
 enum class UpAxis { kY, kZ };
 inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}}};
 
+inline constexpr double kDefaultBand = 3;          ///< voxels
+inline constexpr double kDefaultTolerance = 0.05;  ///< voxels
+
 /// How to make volumes, as far as somebody said.
 struct VolumeOptions {
   std::optional<Fill> fill;          ///< default: kSurface

@@ -8,6 +8,7 @@
 #include "libvox/core/progress.h"
 #include "libvox/core/stopwatch.h"
 #include "libvox/core/version.h"
+#include "libvox/grid/surface_grid.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/watched_stream.h"

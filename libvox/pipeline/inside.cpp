@@ -3,6 +3,8 @@
 #include "libvox/pipeline/inside.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/limit_polygons.h"
@@ -11,6 +13,8 @@
 #include "libvox/volume/fill.h"
 #include "libvox/volume/winding.h"
 #include "libvox/voxelize/triangulate.h"
+
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <array>

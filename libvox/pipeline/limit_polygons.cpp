@@ -2,7 +2,9 @@
 
 #include "libvox/pipeline/limit_polygons.h"
 
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
 #include "libvox/options/stop_rule.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/subdivide/doo_sabin.h"

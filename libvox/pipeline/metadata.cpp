@@ -3,6 +3,9 @@
 #include "libvox/pipeline/metadata.h"
 
 #include "libvox/core/version.h"
+#include "libvox/options/voxelize.h"
+
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <sstream>

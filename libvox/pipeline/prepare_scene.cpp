@@ -2,9 +2,13 @@
 
 #include "libvox/pipeline/prepare_scene.h"
 
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/core/stopwatch.h"
 #include "libvox/mesh/adjacency.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/asked.h"
+#include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/plan.h"
 #include "libvox/pipeline/refine.h"

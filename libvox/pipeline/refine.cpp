@@ -3,7 +3,9 @@
 #include "libvox/pipeline/refine.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/prepare/sound.h"

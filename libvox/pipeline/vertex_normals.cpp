@@ -3,6 +3,8 @@
 #include "libvox/pipeline/vertex_normals.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/voxel_means.h"
 #include "libvox/localize/partition.h"
 #include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/surface.h"

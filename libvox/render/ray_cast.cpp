@@ -5,6 +5,7 @@
 #include "libvox/core/error.h"
 
 #include <openvdb/math/DDA.h>
+#include <openvdb/openvdb.h>
 #include <openvdb/tools/RayIntersector.h>
 
 #include <algorithm>

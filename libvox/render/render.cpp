@@ -6,6 +6,10 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
+#include "libvox/render/shading.h"
+#include "libvox/render/visible.h"
+
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>
@@ -179,6 +183,11 @@ Image render(const VisibleGrids& visible, const RenderOptions& options) {
   Progress unwatched;
   Progress& progress = options.progress != nullptr ? *options.progress : unwatched;
   return onThreads(options.threads, [&] { return renderViews(visible, options, progress); });
+}
+
+Image render(std::span<const std::shared_ptr<openvdb::GridBase>> grids, const VisibleOptions& what,
+             const RenderOptions& options) {
+  return render(visibleGrids(grids, what), options);
 }
 
 }  // namespace vox

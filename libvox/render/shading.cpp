@@ -3,6 +3,7 @@
 #include "libvox/render/shading.h"
 
 #include <Eigen/Geometry>
+#include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <cmath>

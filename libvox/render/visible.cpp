@@ -6,6 +6,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/grid/transform.h"
 
+#include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
 
 #include <algorithm>

@@ -2,6 +2,8 @@
 
 #include "libvox/volume/density.h"
 
+#include <openvdb/openvdb.h>
+
 #include <algorithm>
 
 namespace vox {

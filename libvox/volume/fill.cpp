@@ -8,6 +8,8 @@
 #include "libvox/volume/disjoint_sets.h"
 #include "libvox/volume/leaf_regions.h"
 
+#include <openvdb/openvdb.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>

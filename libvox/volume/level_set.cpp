@@ -2,6 +2,7 @@
 
 #include "libvox/volume/level_set.h"
 
+#include <openvdb/openvdb.h>
 #include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/ValueTransformer.h>

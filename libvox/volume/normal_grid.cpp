@@ -3,6 +3,9 @@
 #include "libvox/volume/normal_grid.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/voxel_means.h"
+
+#include <openvdb/openvdb.h>
 
 #include <memory>
 #include <vector>

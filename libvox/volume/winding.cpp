@@ -4,6 +4,8 @@
 
 #include "libvox/core/parallel.h"
 
+#include <openvdb/openvdb.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>

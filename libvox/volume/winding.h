@@ -1,8 +1,7 @@
 #pragma once
 
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/mesh/polygon_mesh.h"
-
-#include <openvdb/openvdb.h>
 
 #include <span>
 #include <vector>
