@@ -9,9 +9,12 @@
 #include "apps/bench/engine_bench.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/surface_grid.h"
 #include "libvox/grid/transform.h"
+#include "libvox/grid/voxel_means.h"
 #include "libvox/io/read_mesh.h"
 #include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/normals.h"
@@ -23,6 +26,7 @@
 #include "libvox/voxelize/voxel_box.h"
 
 #include <benchmark/benchmark.h>
+#include <openvdb/openvdb.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <atomic>
