@@ -1,4 +1,4 @@
-#include "libvox/inspect/camera.h"
+#include "libvox/render/camera.h"
 
 #include "libvox/core/error.h"
 

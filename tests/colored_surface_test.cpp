@@ -1,5 +1,6 @@
 #include "libvox/subdivide/colored_surface.h"
 
+#include "libvox/core/memory.h"
 #include "libvox/core/numbered.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/active_voxels.h"
@@ -7,6 +8,7 @@
 #include "libvox/grid/transform.h"
 #include "libvox/grid/voxel.h"
 #include "libvox/grid/voxel_means.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/subdivide/doo_sabin.h"

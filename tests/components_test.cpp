@@ -1,6 +1,7 @@
 #include "libvox/inspect/components.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 
 #include <catch2/catch.hpp>
 

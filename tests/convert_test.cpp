@@ -256,7 +256,7 @@ TEST_CASE("a conversion can be cancelled in each of its stages, and leaves nothi
   const test::TemporaryFolder folder;
   for (const std::string when : {"prepare", "surface", "grids", "write"})
     for (const auto localize : {Localize::kDuring, Localize::kOff}) {
-      CAPTURE(when, localizeName(localize));
+      CAPTURE(when, nameIn(kLocalizeNames, localize));
       Progress* run = nullptr;
       std::string last;
       Progress progress(

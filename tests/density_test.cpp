@@ -1,5 +1,7 @@
 #include "libvox/volume/density.h"
 
+#include "libvox/grid/openvdb.h"
+
 #include <catch2/catch.hpp>
 
 TEST_CASE("density is 1 at the voxels of the mask and 0 elsewhere", "[volume]") {

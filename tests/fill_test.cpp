@@ -1,6 +1,7 @@
 #include "libvox/volume/fill.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/volume/leaf_regions.h"
 #include "libvox/volume/winding.h"
 #include "tests/shapes.h"

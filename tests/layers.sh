@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # Fails on an include that runs against the ranks of libvox/README.md:
-# core < mesh < grid < stages (which never include each other) < pipeline, inspect < apps < tests.
+# core < mesh, options < grid < stages (which never include each other) < pipeline, inspect, render < apps < tests.
 set -euo pipefail
 cd "$1"
 
 rank() {
   case $1 in
     libvox/core) echo 0 ;;
-    libvox/mesh) echo 1 ;;
+    libvox/mesh | libvox/options) echo 1 ;;
     libvox/grid) echo 2 ;;
     libvox/io | libvox/prepare | libvox/localize | libvox/subdivide | libvox/voxelize | libvox/volume) echo 3 ;;
-    libvox/pipeline | libvox/inspect) echo 4 ;;
+    libvox/pipeline | libvox/inspect | libvox/render) echo 4 ;;
     apps/*) echo 5 ;;
     tests | tests/*) echo 6 ;;
     *) echo "unknown folder $1: give it a rank in tests/layers.sh" >&2; exit 1 ;;

@@ -1,4 +1,4 @@
-#include "libvox/inspect/ray_cast.h"
+#include "libvox/render/ray_cast.h"
 
 #include "libvox/core/error.h"
 

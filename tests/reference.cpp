@@ -1,5 +1,7 @@
 #include "tests/reference.h"
 
+#include "libvox/grid/openvdb.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>

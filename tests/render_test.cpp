@@ -1,7 +1,9 @@
-#include "libvox/inspect/render.h"
+#include "libvox/render/render.h"
 
 #include "libvox/core/error.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
+#include "libvox/render/visible.h"
 
 #include <catch2/catch.hpp>
 #include <openvdb/tools/LevelSetSphere.h>

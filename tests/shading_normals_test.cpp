@@ -1,8 +1,8 @@
 #include "libvox/volume/shading_normals.h"
 
-#include "libvox/inspect/ray_cast.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/refine.h"
+#include "libvox/render/ray_cast.h"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/stop_rule.h"
 
 #include <catch2/catch.hpp>
 

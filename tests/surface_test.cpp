@@ -1,7 +1,11 @@
 #include "libvox/pipeline/surface.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/active_voxels.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/voxel.h"
 #include "libvox/prepare/repair.h"
 #include "libvox/subdivide/doo_sabin.h"
@@ -180,7 +184,7 @@ TEST_CASE("the bar moves evenly while a surface is made, also when it is one sub
     onThreads(1, [&] {
       return mark(test::repairedLevel(test::cube(), 1500), {localize, 256}, progress);
     });
-    CAPTURE(localizeName(localize), calls, largestStep);
+    CAPTURE(nameIn(kLocalizeNames, localize), calls, largestStep);
     CHECK(calls > 100);
     CHECK(largestStep < 0.1);
     CHECK(last == Approx(1));
@@ -203,7 +207,7 @@ TEST_CASE("a surface that is cancelled stops at the next submesh or split patch"
       progress.beginLast("surface");
       const SubdivisionLevel base =
           localize == Localize::kOff ? test::repairedLevel(test::cube(), 60) : largeCube();
-      CAPTURE(localizeName(localize), threads);
+      CAPTURE(nameIn(kLocalizeNames, localize), threads);
       CHECK_THROWS_AS(onThreads(threads,
                                 [&] {
                                   return mark(base, {localize, 1}, progress);

@@ -1,4 +1,4 @@
-#include "libvox/grid/texture_spec.h"
+#include "libvox/options/texture_spec.h"
 
 #include "libvox/core/color.h"
 #include "libvox/core/error.h"

@@ -1,5 +1,9 @@
 #include "libvox/subdivide/thin_patch.h"
 
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/active_voxels.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/voxel.h"
 #include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/surface.h"

@@ -1,4 +1,4 @@
-#include "libvox/inspect/visible.h"
+#include "libvox/render/visible.h"
 
 #include "libvox/core/error.h"
 

@@ -1,4 +1,4 @@
-#include "libvox/grid/volume_options.h"
+#include "libvox/options/volume_options.h"
 
 #include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/convert.h"
@@ -79,18 +79,12 @@ TEST_CASE("turning what points up is a rotation, and turns back", "[volume]") {
 }
 
 TEST_CASE("nothing is turned unless the input and the target disagree on what is up", "[volume]") {
-  VolumeOptions options;
-  CHECK(turnOf(options) == Turn::kNoTurn);
-  options.up = UpAxis::kY;
-  CHECK(turnOf(options) == Turn::kYToZ);
-  options.up = UpAxis::kZ;
-  CHECK(turnOf(options) == Turn::kNoTurn);
-  options.target = Target::kHoudini;
-  CHECK(turnOf(options) == Turn::kZToY);
-  options.up = UpAxis::kY;
-  CHECK(turnOf(options) == Turn::kNoTurn);
-  options.up.reset();
-  CHECK(turnOf(options) == Turn::kNoTurn);
+  CHECK(turnFor({}, Target::kBlender) == Turn::kNoTurn);
+  CHECK(turnFor(UpAxis::kY, Target::kBlender) == Turn::kYToZ);
+  CHECK(turnFor(UpAxis::kZ, Target::kBlender) == Turn::kNoTurn);
+  CHECK(turnFor(UpAxis::kZ, Target::kHoudini) == Turn::kZToY);
+  CHECK(turnFor(UpAxis::kY, Target::kHoudini) == Turn::kNoTurn);
+  CHECK(turnFor({}, Target::kHoudini) == Turn::kNoTurn);
 }
 
 TEST_CASE("an input whose y axis points up gives the voxels of the input turned", "[volume]") {

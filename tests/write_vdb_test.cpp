@@ -2,6 +2,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "tests/failing_allocation.h"
 #include "tests/temporary_folder.h"
 

@@ -9,9 +9,13 @@
 #include "apps/bench/engine_bench.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/active_voxels.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
+#include "libvox/grid/voxel_means.h"
 #include "libvox/io/read_mesh.h"
 #include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/normals.h"

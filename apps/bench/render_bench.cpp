@@ -4,8 +4,8 @@
 #include "apps/bench/render_bench.h"
 
 #include "apps/bench/inputs.h"
-#include "libvox/inspect/render.h"
 #include "libvox/pipeline/convert.h"
+#include "libvox/render/render.h"
 
 #include <benchmark/benchmark.h>
 

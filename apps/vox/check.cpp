@@ -11,6 +11,7 @@
 #include "libvox/inspect/lint.h"
 #include "libvox/inspect/topology.h"
 #include "libvox/io/read_vdb.h"
+#include "libvox/options/voxelize.h"
 
 #include <nlohmann/json.hpp>
 

@@ -12,6 +12,7 @@
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
 #include "libvox/core/stopwatch.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"

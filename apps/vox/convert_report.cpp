@@ -5,6 +5,7 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/version.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/options/voxelize.h"
 
 #include <nlohmann/json.hpp>
 
@@ -92,7 +93,7 @@ Json optionsJson(const FinishedRun& run) {
       {"separating", options.separation == Separation::k26 ? 26 : 6},
       {"grids", options.grids ? gridNames(run) : Json()},
       {"texture", options.texture ? Json(textureText(*options.texture)) : Json()},
-      {"localize", localizeName(options.surface.localize)},
+      {"localize", nameIn(kLocalizeNames, options.surface.localize)},
       {"submesh_faces", options.surface.submeshFaces},
       {"threads", options.run.threads > 0 ? Json(options.run.threads) : Json()},
       {"max_memory", options.run.maxMemory > 0 ? Json(options.run.maxMemory) : Json()}};

@@ -5,6 +5,7 @@
 #include "libvox/core/error.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/read_indices.h"
+#include "libvox/options/voxelize.h"
 
 #include <algorithm>
 #include <cctype>
@@ -291,12 +292,8 @@ void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments) {
 SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments) {
   SurfaceOptions surface;
   surface.submeshFaces = arguments.submeshFaces;
-  if (arguments.localize.empty()) return surface;
-  const auto localize = localizeNamed(arguments.localize);
-  if (!localize)
-    throw UsageError("--localize must be one of " + allLocalizeNames() + ", not '" +
-                     arguments.localize + "'");
-  surface.localize = *localize;
+  surface.localize = parseNamed("--localize", kLocalizeNames, arguments.localize)
+                         .value_or(SurfaceOptions().localize);
   return surface;
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 
-#include "libvox/grid/grid_kind.h"
-#include "libvox/grid/volume_options.h"
 #include "libvox/io/scene_file.h"
-#include "libvox/mesh/smoothing.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/grid_kind.h"
+#include "libvox/options/preparation_options.h"
+#include "libvox/options/run_options.h"
+#include "libvox/options/smoothing_options.h"
+#include "libvox/options/stop_rule.h"
+#include "libvox/options/volume_options.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/convert.h"
-#include "libvox/pipeline/preparation_options.h"
-#include "libvox/pipeline/run_options.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/voxelize/scan.h"
 

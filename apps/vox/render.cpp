@@ -1,12 +1,13 @@
 // vox render: a picture of a .vdb file, or of what a mesh or scene becomes.
 
-#include "libvox/inspect/render.h"
+#include "libvox/render/render.h"
 
 #include "apps/vox/command.h"
 #include "apps/vox/interrupt.h"
 #include "apps/vox/options.h"
 #include "apps/vox/progress_bar.h"
 #include "libvox/core/error.h"
+#include "libvox/core/progress.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/read_vdb.h"
@@ -179,7 +180,7 @@ int run(const Options& options) {
       conversion.grids = readGrids(options);
     else
       conversion = convert(scene, convertOptions);
-    image = render(visibleGrids(conversion.grids, options.visible), renderOptions);
+    image = render(conversion.grids, options.visible, renderOptions);
     progress.finish();
     write(options, image);
   }

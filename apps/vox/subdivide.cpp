@@ -4,6 +4,7 @@
 #include "apps/vox/interrupt.h"
 #include "apps/vox/options.h"
 #include "apps/vox/progress_bar.h"
+#include "libvox/core/progress.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_mesh.h"

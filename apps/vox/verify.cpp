@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/inspect/lint.h"
@@ -48,7 +49,8 @@ ReferenceSurface referenceOf(const Scene& scene, const SceneObject& object,
                              Progress& progress) {
   SubdivisionLevel level = std::move(prepare(scene, object, options, budget, progress).base);
   GridTransform transform = transformForVoxelSize(*options.voxelSize);
-  transform.turn = turnOf(overriding(options.volume, scene.volume));
+  const VolumeOptions volume = overriding(options.volume, scene.volume);
+  transform.turn = turnFor(volume.up, volume.target.value_or(Target::kBlender));
   for (Vec3d& point : level.mesh.points) point = transform.toIndex(point);
   const ConversionWay way =
       chooseWay(decided(options.until, object.until, scene.until),

@@ -2,8 +2,14 @@
 
 #include <openvdb/openvdb.h>
 
-// The trees and grids that OpenVDB registers. Its library holds them compiled. These declarations
-// keep a translation unit from compiling them again, which takes longer than most of our files.
+// OpenVDB's library holds its trees and grids compiled. A source that makes a grid would compile
+// their virtual functions again, all reading and writing of files among them, which takes longer
+// than the rest of most sources. These declarations say that they are in the library.
+//
+// Our own targets define VOX_COMPILED_TREES (cmake/Warnings.cmake). Without optimisation the
+// declarations would leave out small functions, too, which the library has only inlined. If the
+// linker misses a function of a tree or grid all the same, openvdb.cpp is the place to name it.
+#if defined(VOX_COMPILED_TREES) && defined(__OPTIMIZE__)
 namespace openvdb {
 OPENVDB_USE_VERSION_NAMESPACE
 namespace OPENVDB_VERSION_NAME {
@@ -29,3 +35,4 @@ extern template class Grid<Vec3STree>;
 
 }  // namespace OPENVDB_VERSION_NAME
 }  // namespace openvdb
+#endif

@@ -26,6 +26,12 @@ Box usedBox(const PolygonMesh& mesh) {
   return box;
 }
 
+Turn turnFor(std::optional<UpAxis> up, Target target) {
+  const UpAxis targetUp = target == Target::kHoudini ? UpAxis::kY : UpAxis::kZ;
+  if (up.value_or(targetUp) == targetUp) return Turn::kNoTurn;
+  return targetUp == UpAxis::kZ ? Turn::kYToZ : Turn::kZToY;
+}
+
 GridTransform transformForDim(const Box& box, int dim) {
   if (dim < 1) throw UsageError("--dim must be at least 1, not " + std::to_string(dim));
   const double side = box.longestSide();

@@ -2,8 +2,10 @@
 
 #include "libvox/core/types.h"
 #include "libvox/mesh/polygon_mesh.h"
+#include "libvox/options/volume_options.h"
 
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace vox {
@@ -46,6 +48,10 @@ inline Turn inverse(Turn turn) {
   if (turn == Turn::kNoTurn) return turn;
   return turn == Turn::kYToZ ? Turn::kZToY : Turn::kYToZ;
 }
+
+/// The turn that makes the axis `up` of the input the axis that points up in the target: z in
+/// Blender, y in Houdini. No turn if `up` is empty.
+Turn turnFor(std::optional<UpAxis> up, Target target);
 
 /// Transform between world space and index space: index = turned(world) / voxelSize. Voxel
 /// (i, j, k) is the unit cube centred on (i, j, k) in index space. No grid has an offset, so voxels

@@ -8,6 +8,7 @@
 #include "libvox/core/error.h"
 #include "libvox/core/forest.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/inspect/leaf_pieces.h"
 
 #include <openvdb/tools/Morphology.h>

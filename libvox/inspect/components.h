@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/inspect/diff.h"
 
 #include <cstdint>

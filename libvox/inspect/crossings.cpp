@@ -3,6 +3,7 @@
 #include "libvox/inspect/crossings.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/inspect/separation.h"
 
 #include <algorithm>

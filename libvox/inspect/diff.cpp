@@ -6,6 +6,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/inspect/compared.h"
+#include "libvox/inspect/compared_types.h"
 #include "libvox/inspect/nearest_active.h"
 #include "libvox/inspect/tree_pair.h"
 #include "libvox/io/read_vdb.h"
@@ -323,7 +324,7 @@ FileDiff diffVdb(const std::filesystem::path& a, const std::filesystem::path& b,
   const VdbFile fileA = readVdb(a);
   const VdbFile fileB = readVdb(b);
   FileDiff diff;
-  if (options.metadata) diff.metadata = diffMetadata(fileA.metadata, fileB.metadata);
+  if (options.metadata) diff.metadata = diffMetadata(*fileA.metadata, *fileB.metadata);
   forEachPair(fileA, fileB, options,
               [&](const std::string& name, const auto& gridA, const auto& gridB) {
                 if (gridA && gridB)

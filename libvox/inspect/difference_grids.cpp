@@ -3,6 +3,7 @@
 #include "libvox/core/version.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/inspect/compared.h"
+#include "libvox/inspect/compared_types.h"
 #include "libvox/inspect/diff.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/write_vdb.h"

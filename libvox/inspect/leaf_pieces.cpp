@@ -2,6 +2,8 @@
 
 #include "libvox/inspect/leaf_pieces.h"
 
+#include "libvox/grid/openvdb.h"
+
 #include <algorithm>
 #include <bit>
 

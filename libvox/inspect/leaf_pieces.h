@@ -1,7 +1,7 @@
 #pragma once
 
 #include "libvox/grid/merge_leaf.h"
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
 
 #include <cstdint>
 

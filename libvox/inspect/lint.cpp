@@ -5,6 +5,7 @@
 
 #include "libvox/core/parallel.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/inspect/compared_types.h"
 #include "libvox/inspect/leaf_values.h"
 #include "libvox/inspect/topology.h"
 #include "libvox/io/read_vdb.h"
@@ -28,9 +29,10 @@ using openvdb::Coord;
 using openvdb::GridBase;
 using openvdb::Index;
 
-class Findings {
+class LintFindings {
  public:
-  Findings(std::vector<LintFinding>& all, std::string grid) : all_(all), grid_(std::move(grid)) {}
+  LintFindings(std::vector<LintFinding>& all, std::string grid)
+      : all_(all), grid_(std::move(grid)) {}
   void add(const std::string& code, const std::string& message) {
     all_.push_back({code, grid_, message});
   }
@@ -120,7 +122,7 @@ std::string at(const Coord& voxel) {
 }
 
 template <class T>
-std::string textOf(const T& value) {
+std::string numberText(const T& value) {
   std::ostringstream text;
   text << value;
   return text.str();
@@ -135,7 +137,7 @@ bool isFog(const GridBase& grid) {
 constexpr double kVisible = 0.001F;
 
 template <class Grid>
-void lintScalars(const Grid& grid, const Values& values, Findings& findings) {
+void lintScalars(const Grid& grid, const Values& values, LintFindings& findings) {
   const double background = scalarOf(grid.background());
   if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) {
     if constexpr (std::is_floating_point_v<typename Grid::ValueType>) {
@@ -150,7 +152,7 @@ void lintScalars(const Grid& grid, const Values& values, Findings& findings) {
   }
   if (!isFog(grid)) return;
   if (background != 0)
-    findings.add("background", "has background " + textOf(background) +
+    findings.add("background", "has background " + numberText(background) +
                                    ", not 0: the space around will be filled with it");
   if (values.least < 0 && background > 0)
     findings.add("sdf-as-fog",
@@ -160,13 +162,13 @@ void lintScalars(const Grid& grid, const Values& values, Findings& findings) {
 }
 
 /// What takes a look at each value.
-void lintValues(const GridBase& grid, Findings& findings) {
+void lintValues(const GridBase& grid, LintFindings& findings) {
   using Valued = ComparedTypes::Remove<openvdb::BoolGrid, openvdb::MaskGrid>;
   grid.apply<Valued>([&](const auto& typed) {
     using Grid = std::decay_t<decltype(typed)>;
     const Values values = valuesOf(typed.tree());
     if (values.notFinite > 0)
-      findings.add("not-finite", textOf(values.notFinite) +
+      findings.add("not-finite", numberText(values.notFinite) +
                                      " voxels hold NaN or infinity, the first at " +
                                      at(*values.first) + ": what is shown is undefined");
     if (!std::isfinite(scalarOf(typed.background())))
@@ -178,7 +180,7 @@ void lintValues(const GridBase& grid, Findings& findings) {
 
 // The rest of a grid
 
-void lintVoxels(const GridBase& grid, Findings& findings) {
+void lintVoxels(const GridBase& grid, LintFindings& findings) {
   const std::uint64_t active = grid.activeVoxelCount();
   if (active == 0)
     findings.add("empty", "has no active voxels: there is nothing to show");
@@ -189,18 +191,18 @@ void lintVoxels(const GridBase& grid, Findings& findings) {
   // Other grids have other voxels: those inside, or a band.
   if (said && grid.isType<openvdb::MaskGrid>() &&
       static_cast<std::uint64_t>(said->value()) != active)
-    findings.add("count", "has " + textOf(active) + " active voxels, but was made with " +
-                              textOf(said->value()) + ": something has changed it since");
+    findings.add("count", "has " + numberText(active) + " active voxels, but was made with " +
+                              numberText(said->value()) + ": something has changed it since");
 }
 
-void lintTransform(const GridBase& grid, Findings& findings) {
+void lintTransform(const GridBase& grid, LintFindings& findings) {
   const openvdb::math::Transform& transform = grid.transform();
   if (!transform.isLinear())
     findings.add("frustum", "has a " + transform.mapType() +
                                 ", not a linear transform: Blender will not show it; resample it");
 }
 
-void lintName(const GridBase& grid, Findings& findings) {
+void lintName(const GridBase& grid, LintFindings& findings) {
   const std::string name = grid.getName();
   if (name.empty()) findings.add("name", "has no name: viewers find grids by theirs");
   const bool odd = std::any_of(name.begin(), name.end(), [](char c) {
@@ -216,7 +218,7 @@ void lintName(const GridBase& grid, Findings& findings) {
 }
 
 void lint(const GridBase& grid, std::vector<LintFinding>& all, const std::string& name) {
-  Findings findings(all, name);
+  LintFindings findings(all, name);
   lintName(grid, findings);
   lintTransform(grid, findings);
   lintVoxels(grid, findings);
@@ -252,7 +254,7 @@ std::vector<LintFinding> lintGrid(const GridBase& grid) {
 std::vector<LintFinding> lintVdb(const std::filesystem::path& file) {
   const VdbFile vdb = readVdb(file);
   std::vector<LintFinding> all;
-  Findings findings(all, "");
+  LintFindings findings(all, "");
   std::set<std::string> names;
   for (const NamedGrid& named : vdb.grids)
     if (!names.insert(named.grid->getName()).second)
@@ -262,7 +264,7 @@ std::vector<LintFinding> lintVdb(const std::filesystem::path& file) {
     findings.add("no-density",
                  "there is no grid named density: Blender will show nothing until a material asks "
                  "for another");
-  const auto creator = vdb.metadata["creator"];
+  const auto creator = (*vdb.metadata)["creator"];
   if (creator && creator->str().starts_with("Houdini"))
     findings.add("creator", "the creator is Houdini: Blender will turn the object to Z up");
   for (const NamedGrid& named : vdb.grids) lint(*named.grid, all, named.name);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/grid/grid_base.h"
+#include "libvox/grid/openvdb_fwd.h"
 
 #include <filesystem>
 #include <string>

@@ -4,6 +4,7 @@
 #include "libvox/inspect/nearest_active.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 
 #include <algorithm>
 #include <array>
@@ -63,7 +64,7 @@ void forEachOn(const openvdb::util::NodeMask<3>& voxels, Visit&& visit) {
   for (auto voxel = voxels.beginOn(); voxel; ++voxel) visit(voxel.pos());
 }
 
-Coord inLeaf(const Coord& origin, openvdb::Index offset) {
+Coord voxelInLeaf(const Coord& origin, openvdb::Index offset) {
   return origin.offsetBy(static_cast<int>(offset >> 6), static_cast<int>(offset >> 3 & 7),
                          static_cast<int>(offset & 7));
 }
@@ -149,7 +150,7 @@ void raiseBy(const LeafSurplus& whole, const NearestActive& others, std::atomic<
   }
   forEachOn(leaf.voxels, [&](openvdb::Index offset) {
     const double enough = most.load(std::memory_order_relaxed);
-    raise(most, others.squaredDistance(inLeaf(leaf.origin, offset), enough));
+    raise(most, others.squaredDistance(voxelInLeaf(leaf.origin, offset), enough));
   });
 }
 
@@ -199,7 +200,7 @@ struct NearestActive::Search {
       return;
     }
     forEachOn(*block.leafVoxels, [&](openvdb::Index offset) {
-      const Coord at = inLeaf(block.box.min(), offset);
+      const Coord at = voxelInLeaf(block.box.min(), offset);
       best = std::min(best, vox::squaredDistance(from, CoordBBox(at, at)));
     });
   }

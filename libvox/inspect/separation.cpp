@@ -2,8 +2,11 @@
 
 #include "libvox/inspect/separation.h"
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/voxel.h"
 #include "libvox/inspect/crossings.h"
+#include "libvox/options/voxelize.h"
+#include "libvox/voxelize/scan.h"
 #include "libvox/voxelize/triangulate.h"
 
 #include <Eigen/Geometry>

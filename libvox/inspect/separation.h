@@ -1,9 +1,9 @@
 #pragma once
 
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/inspect/diff.h"
 #include "libvox/mesh/polygon_mesh.h"
-#include "libvox/voxelize/scan.h"
+#include "libvox/options/voxelize.h"
 
 #include <array>
 #include <cstdint>

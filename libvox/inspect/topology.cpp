@@ -3,6 +3,8 @@
 #include "libvox/inspect/topology.h"
 
 #include "libvox/core/error.h"
+#include "libvox/grid/openvdb.h"
+#include "libvox/inspect/compared_types.h"
 
 #include <memory>
 

@@ -1,19 +1,16 @@
 #pragma once
 
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
+
+#include <memory>
 
 namespace vox {
-
-/// Types of grids that can be compared and checked: all of OpenVDB's own but points.
-using ComparedTypes = openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid,
-                                        openvdb::Int64Grid, openvdb::Vec3IGrid, openvdb::Vec3SGrid,
-                                        openvdb::Vec3DGrid, openvdb::BoolGrid, openvdb::MaskGrid>;
 
 /// @throws InputError  always: the grid is of another type
 [[noreturn]] void refuseType(const openvdb::GridBase& grid);
 
-/// The active voxels of a grid of any of these types.
+/// The active voxels of a grid of any type that can be compared (compared_types.h).
 /// @throws InputError  another type
-openvdb::MaskTree::Ptr topologyOf(const openvdb::GridBase& grid);
+std::shared_ptr<openvdb::MaskTree> topologyOf(const openvdb::GridBase& grid);
 
 }  // namespace vox

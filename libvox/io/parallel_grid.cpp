@@ -3,6 +3,7 @@
 #include "libvox/io/parallel_grid.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 
 #include <openvdb/io/io.h>
 

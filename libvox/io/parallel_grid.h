@@ -1,6 +1,8 @@
 #pragma once
 
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
+
+#include <memory>
 
 namespace vox {
 
@@ -8,6 +10,7 @@ namespace vox {
 /// in the same bytes, but OpenVDB serializes and compresses its leaves on all threads, in groups of
 /// up to some 13 MB. Only grids of floats and of float vectors are wrapped; others are returned
 /// unchanged (masks have no values to compress).
-openvdb::GridBase::ConstPtr writtenInParallel(const openvdb::GridBase::Ptr& grid);
+std::shared_ptr<const openvdb::GridBase> writtenInParallel(
+    const std::shared_ptr<openvdb::GridBase>& grid);
 
 }  // namespace vox

@@ -4,6 +4,7 @@
 #include "libvox/io/read_vdb.h"
 
 #include "libvox/core/error.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/write_vdb.h"
 
@@ -85,8 +86,8 @@ class Namer {
 VdbFile readVdb(const std::filesystem::path& file) {
   VdbFile all;
   Namer namer;
-  all.metadata = read(
-      file, [&](const openvdb::GridBase::Ptr& grid) { all.grids.push_back(namer.named(grid)); });
+  all.metadata = std::make_shared<openvdb::MetaMap>(read(
+      file, [&](const openvdb::GridBase::Ptr& grid) { all.grids.push_back(namer.named(grid)); }));
   return all;
 }
 

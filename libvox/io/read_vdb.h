@@ -1,9 +1,10 @@
 #pragma once
 
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,12 @@ namespace vox {
 /// called "density".
 struct NamedGrid {
   std::string name;
-  openvdb::GridBase::Ptr grid;
+  std::shared_ptr<openvdb::GridBase> grid;
 };
 
 struct VdbFile {
   std::vector<NamedGrid> grids;
-  openvdb::MetaMap metadata;  ///< of the file
+  std::shared_ptr<const openvdb::MetaMap> metadata;  ///< of the file
 };
 
 /// Reads a .vdb file from any program. Values are loaded on demand if libvox wrote the file and its

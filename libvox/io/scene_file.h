@@ -1,11 +1,12 @@
 #pragma once
 
-#include "libvox/grid/grid_kind.h"
-#include "libvox/grid/texture_spec.h"
-#include "libvox/grid/volume_options.h"
 #include "libvox/mesh/polygon_mesh.h"
-#include "libvox/mesh/smoothing.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/grid_kind.h"
+#include "libvox/options/smoothing_options.h"
+#include "libvox/options/stop_rule.h"
+#include "libvox/options/texture_spec.h"
+#include "libvox/options/volume_options.h"
+#include "libvox/options/voxelize.h"
 
 #include <Eigen/Geometry>
 

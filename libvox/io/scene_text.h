@@ -5,7 +5,7 @@
 #include "libvox/core/names.h"
 #include "libvox/core/types.h"
 #include "libvox/io/text_scanner.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/stop_rule.h"
 
 #include <toml++/toml.h>
 

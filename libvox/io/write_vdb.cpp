@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/hash.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/io/parallel_grid.h"
 
 #include <openvdb/io/Archive.h>

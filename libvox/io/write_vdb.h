@@ -1,9 +1,10 @@
 #pragma once
 
-#include "libvox/grid/openvdb.h"
-#include "libvox/grid/volume_options.h"
+#include "libvox/grid/openvdb_fwd.h"
+#include "libvox/options/volume_options.h"
 
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace vox {
 /// @param stream       empty, readable, writable and seekable: std::fstream, std::stringstream
 /// @param compression  default: the first of Blosc, zip and none that the OpenVDB library has
 /// @throws IoError  the stream fails
-void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& grids,
+void writeVdb(std::iostream& stream, const std::vector<std::shared_ptr<openvdb::GridBase>>& grids,
               const openvdb::MetaMap& fileMetadata, std::optional<Compression> compression = {});
 
 /// Checks that the OpenVDB library has a compression.

@@ -3,6 +3,7 @@
 #include "libvox/pipeline/asked.h"
 
 #include "libvox/core/error.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/choose.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "libvox/grid/grid_kind.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/grid_kind.h"
+#include "libvox/options/stop_rule.h"
 #include "libvox/pipeline/convert.h"
 
 #include <vector>

@@ -2,6 +2,8 @@
 
 #include "libvox/pipeline/choose.h"
 
+#include "libvox/options/voxelize.h"
+
 namespace vox {
 
 std::string faultOf(const StopRule& until, Voxelize voxelize, Separation separation) {

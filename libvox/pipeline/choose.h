@@ -1,7 +1,7 @@
 #pragma once
 
-#include "libvox/mesh/stop_rule.h"
-#include "libvox/voxelize/scan.h"
+#include "libvox/options/stop_rule.h"
+#include "libvox/options/voxelize.h"
 
 #include <string>
 
@@ -9,22 +9,23 @@ namespace vox {
 
 /// How an object becomes voxels.
 struct ConversionWay {
-  bool polygons = false;
-  StopRule until = {};  ///< of the polygons
+  bool polygons = false;  ///< true: polygons are scanned; false: vertices are rounded
+  StopRule until = {};    ///< where the refinement of the polygons stops
   Separation separation = Separation::k6;
 };
 
-/// Distance between polygons and smooth surface where polygons stand in for vertices, in voxels.
+/// Distance between polygons and smooth surface where polygons replace vertices, in voxels.
 /// Together with the half voxel of the scan it stays well within vertex conversion's own distance
 /// of a voxel.
 inline constexpr double kAutomaticFlatness = 0.1;
 
-/// What is wrong with a combination, for messages; empty if nothing.
+/// What is wrong with a combination, for messages; empty if it is possible.
 std::string faultOf(const StopRule& until, Voxelize voxelize, Separation separation);
 
-/// The way for an object. Stop rules with limits mean polygons, refined to them. Until voxel:
-/// vertices; with kPolygon polygons whose faces fit into voxels; and with kAuto, where vertices
-/// cannot do it (26-separating), polygons of kAutomaticFlatness.
+/// The way for an object. A stop rule with limits means polygons that are refined to these limits.
+/// Until voxel means vertices, with two exceptions: kPolygon means polygons whose faces fit into
+/// voxels; kAuto with 26-separation, which vertices cannot give, means polygons of
+/// kAutomaticFlatness.
 ConversionWay chooseWay(const StopRule& until, Voxelize voxelize, Separation separation);
 
 }  // namespace vox

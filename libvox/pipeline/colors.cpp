@@ -2,6 +2,10 @@
 
 #include "libvox/pipeline/colors.h"
 
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
+#include "libvox/grid/voxel_means.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/surface_colors.h"
 #include "libvox/subdivide/colored_surface.h"
@@ -65,7 +69,7 @@ std::optional<PlacedTexture> textureOf(const SceneObject& object,
 openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask,
                                      std::span<const PreparedSurface> surfaces,
                                      MemoryBudget& budget, const Progress& progress) {
-  budget.take(bytesOfGrid<openvdb::Vec3STree>(mask.tree()), "the color grid", kScatteredAdvice);
+  budget.take(bytesOfVectors(mask.tree()), "the color grid", kScatteredAdvice);
   auto color = colorGrid(mask);
   for (const PreparedSurface& surface : surfaces) {
     const openvdb::MaskTree& voxels = surface.voxels ? *surface.voxels : mask.tree();

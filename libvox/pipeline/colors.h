@@ -1,42 +1,35 @@
 #pragma once
 
-#include "libvox/core/memory.h"
-#include "libvox/core/progress.h"
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/scene_file.h"
-#include "libvox/volume/texture.h"
+#include "libvox/pipeline/prepared_surface.h"
 
-#include <Eigen/Geometry>
-
+#include <memory>
 #include <optional>
 #include <span>
 
 namespace vox {
 
-struct PreparedSurface;
+class MemoryBudget;
+class Progress;
 
-/// A solid texture and the way to its space.
-struct PlacedTexture {
-  SolidTexture texture;
-  Eigen::Affine3d fromWorld;
-};
-
-/// What an object is coloured with: the texture that is asked for, or else its own, or nothing.
+/// The texture that colours an object: `asked` if that is set, else the object's own, else none.
 /// @param turn  of the grid
 std::optional<PlacedTexture> textureOf(const SceneObject& object,
                                        const std::optional<TextureSpec>& asked, Turn turn);
 
-/// The grid `color`, active at the voxels of the mask. Objects are painted one after the other,
-/// each on all its voxels, so that where several share a voxel the last of them has it: with their
-/// texture, or the colours of their mesh refined with it, of which each voxel has the mean. What
-/// has neither is kPlainColor.
+/// The grid `color`, active at the voxels of the mask.
 ///
-/// @param surfaces  their voxels are known; a single one may leave that to the mask
-/// @throws LimitError  it does not fit into the budget
+/// Objects are painted one after the other, each on all its voxels: a voxel of several objects has
+/// the colour of the last of them. An object is painted with its texture, else with the colours of
+/// its mesh, which are refined with the mesh and averaged over each voxel, else with kPlainColor.
+///
+/// @param surfaces  with their voxels; a single surface may leave them out: it has the whole mask
+/// @throws LimitError  the grid does not fit into the budget
 /// @throws Cancelled
-openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask,
-                                     std::span<const PreparedSurface> surfaces,
-                                     MemoryBudget& budget, const Progress& progress);
+std::shared_ptr<openvdb::GridBase> makeColorGrid(const openvdb::MaskGrid& mask,
+                                                 std::span<const PreparedSurface> surfaces,
+                                                 MemoryBudget& budget, const Progress& progress);
 
 }  // namespace vox

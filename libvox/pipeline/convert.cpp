@@ -8,6 +8,7 @@
 #include "libvox/core/progress.h"
 #include "libvox/core/stopwatch.h"
 #include "libvox/core/version.h"
+#include "libvox/grid/active_voxels.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"

@@ -1,21 +1,12 @@
 #pragma once
 
-#include "libvox/grid/grid_base.h"
-#include "libvox/grid/grid_kind.h"
-#include "libvox/grid/texture_spec.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/grid/transform.h"
-#include "libvox/grid/volume_options.h"
 #include "libvox/io/scene_file.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/convert_options.h"
+#include "libvox/pipeline/conversion_report.h"
 #include "libvox/pipeline/estimate.h"
-#include "libvox/pipeline/polygons.h"
-#include "libvox/pipeline/preparation_options.h"
-#include "libvox/pipeline/run_options.h"
-#include "libvox/pipeline/surface.h"
-#include "libvox/prepare/interpolate.h"
-#include "libvox/voxelize/vertex_sink.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <memory>
@@ -24,50 +15,6 @@
 #include <vector>
 
 namespace vox {
-
-/// How to convert. What is not set here is taken from the scene, then from the default.
-struct ConvertOptions : PreparationOptions {
-  std::optional<int> dim;           ///< voxels along the longest side of the input; default 256
-  std::optional<double> voxelSize;  ///< world units; overrides dim
-  std::optional<std::vector<GridKind>> grids;  ///< default: density
-  std::optional<StopRule> until;               ///< default: voxel
-  std::optional<Voxelize> voxelize;            ///< default: auto
-  Separation separation = Separation::k6;
-  VolumeOptions volume;
-  /// Of all objects, instead of their own textures and colours; adds the color grid to those of the
-  /// scene.
-  std::optional<TextureSpec> texture;
-  SurfaceOptions surface;
-  RunOptions run;
-};
-
-inline constexpr int kDefaultDim = 256;
-
-/// What happened to one object.
-struct ObjectReport {
-  std::string name;
-  std::uint64_t inputFaces = 0;
-  Index submeshes = 0;
-  int levels = 0;                  ///< Doo-Sabin steps down to the deepest vertex
-  std::uint64_t vertices = 0;      ///< vertices rounded to voxels, each at its own level
-  LevelCounts verticesOfLevel{};   ///< how many of them at each level
-  std::uint64_t activeVoxels = 0;  ///< that no object before it has
-  bool byPolygons = false;         ///< rather than by vertices
-  StopRule until;                  ///< what its polygons were refined to
-  PolygonReport polygons;
-  InterpolationReport interpolation;  ///< its residual in world units
-};
-
-struct ConvertReport {
-  double voxelSize = 0;  ///< world units
-  std::vector<ObjectReport> objects;
-  std::uint64_t activeVoxels = 0;     ///< active voxels, or those of the grid if none were made
-  std::vector<std::string> warnings;  ///< one line each: what the user may not expect
-  int threads = 0;                    ///< that there were to use
-  double prepareSeconds = 0;
-  double surfaceSeconds = 0;  ///< subdivision and voxelization
-  double gridsSeconds = 0;    ///< from voxels to the grids asked for
-};
 
 struct Conversion {
   std::vector<std::shared_ptr<openvdb::GridBase>> grids;  ///< one transform, in the order asked for

@@ -2,11 +2,14 @@
 
 #include "libvox/pipeline/distance.h"
 
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
+#include "libvox/mesh/area.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/refine.h"
-#include "libvox/pipeline/work.h"
 #include "libvox/volume/level_set.h"
 
 #include <openvdb/tools/Composite.h>

@@ -1,33 +1,32 @@
 #pragma once
 
-#include "libvox/core/memory.h"
-#include "libvox/core/progress.h"
-#include "libvox/grid/openvdb.h"
-#include "libvox/grid/volume_options.h"
+#include "libvox/grid/openvdb_fwd.h"
+#include "libvox/options/volume_options.h"
+#include "libvox/pipeline/prepared_surface.h"
 
+#include <memory>
 #include <span>
 
 namespace vox {
 
-struct PreparedSurface;
+class MemoryBudget;
+class Progress;
 
-inline constexpr double kDefaultBand = 3;
-inline constexpr double kDefaultTolerance = 0.05;
-
-/// The grid `surface`: signed distances to the smooth surfaces of all objects (to the polygons of
-/// those that stop at a level), as narrow as the band. It is made of polygons that follow them
-/// within the tolerance, never of voxels.
+/// The grid `surface`: a narrow band of signed distances to the smooth surfaces of all objects, or
+/// to the polygons of objects that stop at a level. It is made from polygons that follow the
+/// surfaces within the tolerance, never from voxels.
 ///
-/// Closed components that face outward are united, those that face inward taken out of what they
-/// lie in; components without inside are sheets one voxel thick, or with OpenMesh::kUnsigned
-/// distances without sign. Components that stay apart are made together. Where there are more than
-/// 20000 closed ones, all are, and faces inside others stay as seams within.
+/// Closed components that face outward are united. Closed components that face inward are taken out
+/// of the components that they lie in. Components without inside become sheets one voxel thick, or
+/// with OpenMesh::kUnsigned distances without sign. Components whose boxes do not overlap are made
+/// together. Beyond 20000 closed components all are made together: faces inside others then stay as
+/// seams within.
 ///
 /// @throws LimitError
 /// @throws Cancelled
-openvdb::FloatGrid::Ptr surfaceGrid(std::span<const PreparedSurface> surfaces,
-                                    const VolumeOptions& options,
-                                    const openvdb::math::Transform& transform, MemoryBudget& budget,
-                                    const Progress& progress);
+std::shared_ptr<openvdb::FloatGrid> surfaceGrid(std::span<const PreparedSurface> surfaces,
+                                                const VolumeOptions& options,
+                                                const openvdb::math::Transform& transform,
+                                                MemoryBudget& budget, const Progress& progress);
 
 }  // namespace vox

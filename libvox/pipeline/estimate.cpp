@@ -3,10 +3,13 @@
 
 #include "libvox/pipeline/estimate.h"
 
+#include "libvox/core/memory.h"
 #include "libvox/core/numbered.h"
+#include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/voxel_means.h"
 #include "libvox/mesh/area_vector.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/distance.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/limit_polygons.h"

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "libvox/core/memory.h"
-#include "libvox/core/progress.h"
-#include "libvox/grid/grid_kind.h"
-#include "libvox/grid/volume_options.h"
-#include "libvox/pipeline/surface.h"
+#include "libvox/options/grid_kind.h"
+#include "libvox/options/surface_options.h"
+#include "libvox/options/volume_options.h"
+#include "libvox/pipeline/prepared_surface.h"
 
 #include <span>
 #include <string>
@@ -12,7 +11,8 @@
 
 namespace vox {
 
-struct PreparedSurface;
+class MemoryBudget;
+class Progress;
 
 /// What a grid will be like.
 struct GridEstimate {

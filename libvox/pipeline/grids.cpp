@@ -2,7 +2,11 @@
 
 #include "libvox/pipeline/grids.h"
 
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/grid/voxel_means.h"
+#include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/distance.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/normals.h"
@@ -17,6 +21,17 @@
 namespace vox {
 namespace {
 
+/// Bytes of a tree of values with the nodes of a mask.
+template <class TreeT>
+std::uint64_t bytesOfGrid(const openvdb::MaskTree& mask) {
+  using Leaf = typename TreeT::LeafNodeType;
+  using Upper = typename TreeT::RootNodeType::ChildNodeType;
+  using Lower = typename Upper::ChildNodeType;
+  const auto nodes = mask.nodeCount();  // leaves first, root last
+  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(typename TreeT::ValueType)) +
+         nodes[1] * sizeof(Lower) + nodes[2] * sizeof(Upper);
+}
+
 openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
                                    std::span<const PreparedSurface> surfaces,
                                    const VolumeOptions& volume, MemoryBudget& budget,
@@ -28,7 +43,7 @@ openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
     solid = solidOf(*tree, surfaces, budget, progress);
     tree = solid.get();
   }
-  budget.take(bytesOfGrid<openvdb::FloatTree>(*tree), "the density grid", kScatteredAdvice);
+  budget.take(bytesOfFloats(*tree), "the density grid", kScatteredAdvice);
   const auto value = static_cast<float>(densityValue(volume, mask.voxelSize()[0]));
   auto density = densityGrid(*tree, value);
   density->setTransform(mask.transform().copy());
@@ -40,7 +55,7 @@ openvdb::GridBase::Ptr makeNormals(const openvdb::MaskGrid& mask,
                                    std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
                                    Progress& progress) {
   constexpr const char* kAdvice = "leave it out, use larger voxels, or raise --max-memory";
-  budget.take(bytesOfGrid<openvdb::Vec3STree>(mask.tree()), "the normal grid", kAdvice);
+  budget.take(bytesOfVectors(mask.tree()), "the normal grid", kAdvice);
   budget.require(VoxelMeans::bytesFor(mask.tree().activeVoxelCount(), mask.tree().leafCount()),
                  "the normals", kAdvice);
   VoxelMeans means(mask.tree());
@@ -51,6 +66,14 @@ openvdb::GridBase::Ptr makeNormals(const openvdb::MaskGrid& mask,
 }
 
 }  // namespace
+
+std::uint64_t bytesOfFloats(const openvdb::MaskTree& mask) {
+  return bytesOfGrid<openvdb::FloatTree>(mask);
+}
+
+std::uint64_t bytesOfVectors(const openvdb::MaskTree& mask) {
+  return bytesOfGrid<openvdb::Vec3STree>(mask);
+}
 
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds) {
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);

@@ -1,62 +1,43 @@
 #pragma once
 
-#include "libvox/core/memory.h"
-#include "libvox/core/progress.h"
-#include "libvox/grid/grid_kind.h"
-#include "libvox/grid/openvdb.h"
-#include "libvox/grid/transform.h"
-#include "libvox/grid/volume_options.h"
-#include "libvox/pipeline/choose.h"
-#include "libvox/pipeline/colors.h"
-#include "libvox/subdivide/level.h"
+#include "libvox/grid/openvdb_fwd.h"
+#include "libvox/options/grid_kind.h"
+#include "libvox/options/volume_options.h"
+#include "libvox/pipeline/prepared_surface.h"
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
 
 namespace vox {
 
-/// An object as it is voxelized, in index space.
-struct PreparedSurface {
-  std::string name;
-  SubdivisionLevel base;
-  ConversionWay way;
-  std::optional<PlacedTexture> texture = {};
-  openvdb::MaskTree::Ptr voxels = {};  ///< its own; null: there was no need to tell them apart
-};
+class MemoryBudget;
+class Progress;
 
-/// Bytes of a tree of values with the nodes of a mask.
-template <class TreeT>
-std::uint64_t bytesOfGrid(const openvdb::MaskTree& mask) {
-  using Leaf = typename TreeT::LeafNodeType;
-  using Upper = typename TreeT::RootNodeType::ChildNodeType;
-  using Lower = typename Upper::ChildNodeType;
-  const auto nodes = mask.nodeCount();  // leaves first, root last
-  return nodes[0] * (sizeof(Leaf) + Leaf::SIZE * sizeof(typename TreeT::ValueType)) +
-         nodes[1] * sizeof(Lower) + nodes[2] * sizeof(Upper);
-}
+/// Bytes of the nodes of a mask, if each voxel has a float, or a vector.
+std::uint64_t bytesOfFloats(const openvdb::MaskTree& mask);
+std::uint64_t bytesOfVectors(const openvdb::MaskTree& mask);
 
-/// What to do about a grid that is too large.
+/// Advice for a grid that is too large.
 inline constexpr const char* kScatteredAdvice =
     "the model is scattered over much space: use larger voxels, or raise --max-memory";
 
-/// Whether a grid is made from active voxels.
+/// True if one of the grids is made from the active voxels.
 bool needsVoxels(std::span<const GridKind> kinds);
 
-/// The output grid of a kind, from the active voxels and the surfaces they came from.
-/// @throws LimitError  it does not fit into the budget
+/// The output grid of a kind, made from the active voxels and the surfaces that they came from.
+/// @throws LimitError  the grid does not fit into the budget
 /// @throws Cancelled
-openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> surfaces,
-                                const VolumeOptions& volume, MemoryBudget& budget,
-                                Progress& progress);
+std::shared_ptr<openvdb::GridBase> makeGrid(GridKind kind,
+                                            const std::shared_ptr<openvdb::MaskGrid>& mask,
+                                            std::span<const PreparedSurface> surfaces,
+                                            const VolumeOptions& volume, MemoryBudget& budget,
+                                            Progress& progress);
 
 /// Work of making grids (work.h), by the area of each object in square voxels.
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds);
 
 /// Bytes of a file of these grids, as once measured.
-std::uint64_t expectedBytes(std::span<const openvdb::GridBase::Ptr> grids);
+std::uint64_t expectedBytes(std::span<const std::shared_ptr<openvdb::GridBase>> grids);
 
 }  // namespace vox

@@ -3,6 +3,9 @@
 #include "libvox/pipeline/inside.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/limit_polygons.h"

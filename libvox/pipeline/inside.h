@@ -1,37 +1,39 @@
 #pragma once
 
-#include "libvox/core/memory.h"
-#include "libvox/core/progress.h"
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/grid/transform.h"
-#include "libvox/grid/volume_options.h"
 #include "libvox/mesh/polygon_mesh.h"
+#include "libvox/options/volume_options.h"
+#include "libvox/pipeline/prepared_surface.h"
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace vox {
 
-struct PreparedSurface;
+class MemoryBudget;
+class Progress;
 
-/// Checks an object, of which the inside is wanted, for components that have none. kError refuses
-/// them, the others add a warning that says where the first one is open.
+/// Looks for components of an object that have no inside. If there are any: kError refuses the
+/// object, other values of `openMesh` add a warning that says where the first of them is open.
 /// @throws MeshError
 void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
                    const GridTransform& transform, std::vector<std::string>& warnings);
 
-/// The active voxels of all objects and what they enclose together (fill.h), except cavities: what
-/// lies inside a component that faces inward, and of no other component. What enclosed voxels
-/// belong to is asked of polygons that follow the surfaces within a quarter of a voxel.
+/// The active voxels of all objects and the voxels that they enclose together (fill.h), except
+/// cavities. A cavity is an enclosed space inside a component that faces inward, and inside no
+/// other component. Polygons that follow the surfaces within a quarter of a voxel decide which
+/// spaces are cavities.
 /// @throws LimitError
 /// @throws Cancelled
-openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& active,
-                               std::span<const PreparedSurface> surfaces,
-                               const MemoryBudget& budget, const Progress& progress);
+std::shared_ptr<openvdb::MaskTree> solidOf(const openvdb::MaskTree& active,
+                                           std::span<const PreparedSurface> surfaces,
+                                           const MemoryBudget& budget, const Progress& progress);
 
-/// Triangles and quads that follow some faces of a surface within the tolerance, or, where it stops
-/// at a level, are the polygons of that level.
+/// Triangles and quads that follow some faces of a surface within the tolerance. If the surface
+/// stops at a level: the polygons of that level.
 /// @param faces  whole components
 /// @throws LimitError
 /// @throws Cancelled

@@ -2,8 +2,10 @@
 
 #include "libvox/pipeline/limit_polygons.h"
 
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/core/progress.h"
+#include "libvox/options/stop_rule.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/image_vertices.h"
@@ -20,7 +22,8 @@ namespace vox {
 namespace {
 
 constexpr std::size_t kFacesPerTask = 1024;
-constexpr const char* kAdvice = "use a larger --tolerance or larger voxels, or raise --max-memory";
+constexpr const char* kPolygonsAdvice =
+    "use a larger --tolerance or larger voxels, or raise --max-memory";
 
 /// Of every point, its limit: the mean of its image vertices. Of level 1 and more.
 std::vector<Vec3d> limitPoints(const PolygonMesh& mesh, const std::vector<Vec3d>& image) {
@@ -102,7 +105,7 @@ PolygonMesh limitPolygons(SubdivisionLevel base, double tolerance, const MemoryB
   for (int k = 0;; ++k) {
     progress.check();
     budget.require(bytesOf(level) + 2 * bytesOfImage(level) + bytesOfNextTopology(level),
-                   "level " + std::to_string(k + 1) + " of the polygons", kAdvice);
+                   "level " + std::to_string(k + 1) + " of the polygons", kPolygonsAdvice);
     std::vector<Vec3d> image = imageVertices(level);
     if (k == 0) {  // an extended boundary begins at level 1
       level = nextLevel(level, std::move(image));

@@ -3,6 +3,8 @@
 #include "libvox/pipeline/metadata.h"
 
 #include "libvox/core/version.h"
+#include "libvox/grid/openvdb.h"
+#include "libvox/options/voxelize.h"
 
 #include <algorithm>
 #include <sstream>

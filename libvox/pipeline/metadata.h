@@ -1,13 +1,15 @@
 #pragma once
 
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/grid/transform.h"
-#include "libvox/pipeline/convert.h"
+#include "libvox/io/scene_file.h"
+#include "libvox/options/convert_options.h"
+#include "libvox/pipeline/conversion_report.h"
 
 namespace vox {
 
-/// Metadata of the grids of a conversion: version, input, options, levels, guarantee, voxel count.
-/// No time, no machine: equal input gives equal bytes.
+/// Metadata of the grids of a conversion: version, input, options, levels, guarantee, number of
+/// voxels. No time, no machine: equal input gives equal bytes.
 openvdb::MetaMap describe(const Scene& scene, const ConvertOptions& options,
                           const GridTransform& transform, const ConvertReport& report);
 

@@ -3,7 +3,10 @@
 #include "libvox/pipeline/normals.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/voxel_means.h"
 #include "libvox/mesh/area_vector.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/refined_polygons.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/pipeline/vertex_normals.h"

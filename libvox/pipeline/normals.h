@@ -1,19 +1,19 @@
 #pragma once
 
-#include "libvox/core/progress.h"
-#include "libvox/grid/voxel_means.h"
 #include "libvox/pipeline/choose.h"
 #include "libvox/subdivide/level.h"
 
 namespace vox {
 
+class Progress;
+class VoxelMeans;
+
 /// Adds the normals of a surface to the means of its voxels.
 ///
-/// A surface that became voxels by its vertices gives each voxel the limit normals at the vertices
-/// in it. One that became polygons gives these to all voxels of the mask that they meet (closed
-/// cubes), with the limit normals at their vertices, blended over the triangles: a voxel takes the
-/// normal at the point nearest to its centre. Polygons that were not smoothed are the surface, and
-/// flat. Source: paper section 8.
+/// By vertices: each voxel gets the limit normals at the vertices in it. By polygons: each polygon
+/// gives a normal to every voxel whose closed cube it meets, the one at its point nearest to the
+/// centre of the voxel; normals are blended over triangles from the limit normals at their corners.
+/// Polygons of level 0 are flat and have their own normal. Source: paper section 8.
 ///
 /// @param base  in index space
 /// @throws LimitError, Cancelled

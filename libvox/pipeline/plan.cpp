@@ -2,6 +2,8 @@
 
 #include "libvox/pipeline/plan.h"
 
+#include "libvox/core/progress.h"
+#include "libvox/mesh/area.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/work.h"

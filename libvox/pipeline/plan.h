@@ -1,8 +1,8 @@
 #pragma once
 
 #include "libvox/core/progress.h"
-#include "libvox/grid/grid_kind.h"
 #include "libvox/grid/transform.h"
+#include "libvox/options/grid_kind.h"
 #include "libvox/pipeline/convert.h"
 
 #include <span>

@@ -2,10 +2,15 @@
 
 #include "libvox/pipeline/polygons.h"
 
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/active_voxels.h"
 #include "libvox/grid/leaf_cache.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/refined_polygons.h"
+#include "libvox/voxelize/scan.h"
 #include "libvox/voxelize/triangulate.h"
 
 #include <tbb/enumerable_thread_specific.h>

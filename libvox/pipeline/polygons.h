@@ -1,30 +1,23 @@
 #pragma once
 
 #include "libvox/core/memory.h"
-#include "libvox/core/progress.h"
-#include "libvox/grid/active_voxels.h"
-#include "libvox/mesh/stop_rule.h"
-#include "libvox/pipeline/surface.h"
+#include "libvox/options/stop_rule.h"
+#include "libvox/options/surface_options.h"
+#include "libvox/options/voxelize.h"
+#include "libvox/pipeline/conversion_report.h"
 #include "libvox/subdivide/level.h"
-#include "libvox/voxelize/scan.h"
-
-#include <cstdint>
 
 namespace vox {
 
-struct PolygonReport {
-  std::uint64_t triangles = 0;
-  std::uint64_t fanned = 0;  ///< polygons without a proper triangulation (triangulate.h)
-  int levels = 0;            ///< Doo-Sabin steps down to the deepest vertex
-  Index submeshes = 0;
-};
+class Progress;
+class ActiveVoxels;
 
-/// Polygon conversion of a prepared surface in index space into a grid: polygons as fine as the
-/// rule says (levels = 0: those of the base), then every voxel that they, cut into triangles, meet
-/// as `separation` says (scan.h). Neighbouring polygons share sides of triangles, so the voxels
-/// separate the two sides of the surface. The refined mesh is never built, except for levels = K
-/// with Localize::kOff. Parallel; the voxels do not depend on threads or submeshes. Credits the
-/// current stage of `progress`.
+/// Polygon conversion of a prepared surface in index space into a grid: refines polygons to the
+/// stop rule (levels = 0: takes those of the base), cuts them into triangles and switches on every
+/// voxel that these meet in the sense of `separation` (scan.h). Neighbouring polygons share sides
+/// of triangles, so the voxels separate the two sides of the surface. The refined mesh is built as
+/// a whole only for levels = K with Localize::kOff. Parallel; the voxels do not depend on threads
+/// or submeshes. Credits the current stage of `progress`.
 ///
 /// @param until   not untilVoxel()
 /// @param budget  for the nodes of the grid, and a refined mesh, until this returns

@@ -2,9 +2,13 @@
 
 #include "libvox/pipeline/prepare_scene.h"
 
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/core/stopwatch.h"
 #include "libvox/mesh/adjacency.h"
+#include "libvox/options/voxelize.h"
 #include "libvox/pipeline/asked.h"
+#include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/plan.h"
 #include "libvox/pipeline/refine.h"
@@ -25,7 +29,8 @@ GridTransform chooseTransform(const Box& box, const Scene& scene, const ConvertO
   const int dim = (fromOptions ? options.dim : scene.dim).value_or(kDefaultDim);
   GridTransform transform =
       voxelSize ? transformForVoxelSize(*voxelSize) : transformForDim(box, dim);
-  transform.turn = turnOf(overriding(options.volume, scene.volume));
+  const VolumeOptions volume = overriding(options.volume, scene.volume);
+  transform.turn = turnFor(volume.up, volume.target.value_or(Target::kBlender));
   requireInRange(box, transform);
   return transform;
 }

@@ -2,9 +2,9 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
-#include "libvox/grid/grid_kind.h"
 #include "libvox/grid/transform.h"
-#include "libvox/grid/volume_options.h"
+#include "libvox/options/grid_kind.h"
+#include "libvox/options/volume_options.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/estimate.h"
 #include "libvox/pipeline/grids.h"

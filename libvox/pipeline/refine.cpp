@@ -3,7 +3,9 @@
 #include "libvox/pipeline/refine.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/prepare/sound.h"
@@ -17,7 +19,7 @@
 namespace vox {
 namespace {
 
-constexpr const char* kAdvice = "use fewer levels, or raise --max-memory";
+constexpr const char* kRefineAdvice = "use fewer levels, or raise --max-memory";
 
 /// Repeats a mesh error with the file and object it is about.
 template <class Work>
@@ -149,7 +151,7 @@ Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& p
   MemoryBudget budget(run.maxMemory);
   Refinement all;
   for (const SceneObject& object : scene.objects) {
-    budget.take(bytesOf(object.mesh), "the input", kAdvice);
+    budget.take(bytesOf(object.mesh), "the input", kRefineAdvice);
     const RefineWork work(object, levels, preparation.smoothing);
     progress.begin("prepare", work.prepare);
     PreparedObject prepared = prepare(scene, object, preparation, budget, progress);
@@ -157,7 +159,7 @@ Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& p
     PolygonMesh part = subdividedWithin(budget, std::move(prepared.base), levels, progress).mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
-    budget.take(2 * bytesOf(part), "the refined mesh", kAdvice);
+    budget.take(2 * bytesOf(part), "the refined mesh", kRefineAdvice);
     appendWithin(all.mesh, std::move(part));
   }
   return all;
@@ -195,7 +197,7 @@ SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel l
   for (int k = 1; k <= levels; ++k) {
     progress.check();
     budget.require(bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level),
-                   "level " + std::to_string(k), kAdvice);
+                   "level " + std::to_string(k), kRefineAdvice);
     level = nextLevel(level, imageVertices(level));
     progress.done(partOfStep(k, levels));
   }

@@ -4,8 +4,8 @@
 #include "libvox/core/progress.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/polygon_mesh.h"
-#include "libvox/pipeline/preparation_options.h"
-#include "libvox/pipeline/run_options.h"
+#include "libvox/options/preparation_options.h"
+#include "libvox/options/run_options.h"
 #include "libvox/prepare/interpolate.h"
 #include "libvox/subdivide/doo_sabin.h"
 

@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/subdivide/local_polygons.h"
 #include "libvox/voxelize/triangulate.h"

@@ -2,7 +2,7 @@
 
 #include "libvox/core/progress.h"
 #include "libvox/localize/partition.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/stop_rule.h"
 #include "libvox/subdivide/depth_rule.h"
 #include "libvox/subdivide/level.h"
 #include "libvox/subdivide/polygon_sink.h"

@@ -2,8 +2,12 @@
 
 #include "libvox/pipeline/surface.h"
 
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/active_voxels.h"
 #include "libvox/localize/partition.h"
+#include "libvox/mesh/area.h"
 #include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/work.h"
@@ -11,12 +15,12 @@
 #include "libvox/subdivide/global_surface.h"
 #include "libvox/subdivide/local_surface.h"
 #include "libvox/subdivide/stop.h"
+#include "libvox/voxelize/vertex_sink.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -26,8 +30,6 @@
 
 namespace vox {
 namespace {
-
-constexpr std::array kLocalizes = {Localize::kBefore, Localize::kDuring, Localize::kOff};
 
 /// Patches of more levels are split: 256 x 256 vertices are some 50 microseconds of work.
 constexpr int kMostLevelsOfTask = 8;
@@ -233,31 +235,6 @@ void markWhole(const SubdivisionLevel& base, const MemoryBudget& budget, Progres
 }
 
 }  // namespace
-
-std::string localizeName(Localize localize) {
-  switch (localize) {
-    case Localize::kBefore:
-      return "before";
-    case Localize::kDuring:
-      return "during";
-    case Localize::kOff:
-      return "off";
-  }
-  return {};
-}
-
-std::optional<Localize> localizeNamed(std::string_view name) {
-  for (const Localize localize : kLocalizes)
-    if (localizeName(localize) == name) return localize;
-  return std::nullopt;
-}
-
-std::string allLocalizeNames() {
-  std::string names;
-  for (const Localize localize : kLocalizes)
-    names += (names.empty() ? "" : ", ") + localizeName(localize);
-  return names;
-}
 
 void markSurface(const SubdivisionLevel& base, const SurfaceOptions& options,
                  const MemoryBudget& budget, Progress& progress, ActiveVoxels& grid,

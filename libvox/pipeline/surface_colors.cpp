@@ -2,8 +2,11 @@
 
 #include "libvox/pipeline/surface_colors.h"
 
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
 #include "libvox/grid/voxel.h"
+#include "libvox/grid/voxel_means.h"
 #include "libvox/localize/partition.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/subdivide/colored_surface.h"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include "libvox/core/memory.h"
-#include "libvox/core/progress.h"
-#include "libvox/grid/voxel_means.h"
 #include "libvox/subdivide/level.h"
 
 #include <optional>
@@ -10,12 +7,17 @@
 
 namespace vox {
 
-/// Samples the colours of a prepared surface in index space, given those of its corners, where it
-/// was voxelized: at the vertices of vertex conversion, submesh by submesh; or, of a surface of
-/// polygons, at places on those of a level no more than half a voxel apart. Parallel.
-/// @param levels  of the polygons; nothing: vertices
-/// @throws LimitError  the polygons of the level do not fit into the budget, or what is made where
-/// thousands of faces or edges meet
+class MemoryBudget;
+class Progress;
+class VoxelMeans;
+
+/// Samples the colours of a prepared surface in index space at the places where it was voxelized:
+/// by vertices, at the vertices, submesh by submesh; by polygons, at points of the polygons of a
+/// level that are at most half a voxel apart. Parallel.
+/// @param cornerColors  of the corners of the base
+/// @param levels        of the polygons; empty: by vertices
+/// @throws LimitError  the polygons of the level, or the surface where thousands of faces or edges
+///   meet, do not fit into the budget
 /// @throws Cancelled
 void sampleColors(const SubdivisionLevel& base, std::span<const Vec3d> cornerColors,
                   std::optional<int> levels, const MemoryBudget& budget, const Progress& progress,

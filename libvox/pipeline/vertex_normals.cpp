@@ -3,6 +3,8 @@
 #include "libvox/pipeline/vertex_normals.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/voxel_means.h"
 #include "libvox/localize/partition.h"
 #include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/surface.h"
@@ -30,11 +32,11 @@ struct VertexNormals {
 using Samplers = tbb::enumerable_thread_specific<NormalSampler>;
 
 /// Patches of more levels are shared among threads.
-constexpr int kMostLevelsOfTask = 8;
+constexpr int kMostLevelsOfSampling = 8;
 
 void samplePatch(const Patch& patch, int levels, const Progress& progress, Samplers& samplers) {
   progress.check();
-  if (levels <= kMostLevelsOfTask) return samplers.local().patch(patch, levels, levels);
+  if (levels <= kMostLevelsOfSampling) return samplers.local().patch(patch, levels, levels);
   const auto children = childrenOf(patch);
   parallelForEach(4, 1, [&](std::size_t child) {
     samplePatch(children[child / 2][child % 2], levels - 1, progress, samplers);

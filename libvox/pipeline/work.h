@@ -28,9 +28,4 @@ double workOfWritingDensity(double area);
 double workOfWritingNormals(double area);
 double workOfWritingColor(double area);
 
-/// Area of a face by its average normal, in the square of whatever the unit of the points is.
-double areaOf(const PolygonMesh& mesh, Index face);
-/// Of all faces.
-double areaOf(const PolygonMesh& mesh);
-
 }  // namespace vox

@@ -2,7 +2,7 @@
 
 #include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/polygon_mesh.h"
-#include "libvox/mesh/smoothing.h"
+#include "libvox/options/smoothing_options.h"
 #include "libvox/prepare/lift.h"
 
 #include <span>

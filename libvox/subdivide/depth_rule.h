@@ -1,7 +1,7 @@
 #pragma once
 
 #include "libvox/mesh/patch.h"
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/stop_rule.h"
 #include "libvox/subdivide/criterion.h"
 #include "libvox/subdivide/vertex_array.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/mesh/smoothing.h"
+#include "libvox/options/smoothing_options.h"
 #include "libvox/subdivide/image_vertices.h"
 #include "libvox/subdivide/level.h"
 

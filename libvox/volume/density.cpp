@@ -2,6 +2,8 @@
 
 #include "libvox/volume/density.h"
 
+#include "libvox/grid/openvdb.h"
+
 #include <algorithm>
 
 namespace vox {

@@ -1,7 +1,9 @@
 #pragma once
 
-#include "libvox/grid/openvdb.h"
-#include "libvox/grid/volume_options.h"
+#include "libvox/grid/openvdb_fwd.h"
+#include "libvox/options/volume_options.h"
+
+#include <memory>
 
 namespace vox {
 
@@ -15,6 +17,6 @@ inline constexpr const char* kGainMetadata = "vox_gain";
 double densityValue(const VolumeOptions& options, double voxelSize);
 
 /// Fog volume `density`: `value` at the voxels and tiles of the mask, background 0.
-openvdb::FloatGrid::Ptr densityGrid(const openvdb::MaskTree& mask, float value = 1);
+std::shared_ptr<openvdb::FloatGrid> densityGrid(const openvdb::MaskTree& mask, float value = 1);
 
 }  // namespace vox

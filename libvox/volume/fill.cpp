@@ -6,6 +6,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/volume/disjoint_sets.h"
 #include "libvox/volume/leaf_regions.h"
 

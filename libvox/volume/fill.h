@@ -1,8 +1,10 @@
 #pragma once
 
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,7 +23,8 @@ using AreCavities = std::function<std::vector<bool>(std::span<const openvdb::Coo
 ///
 /// Parallel; the result does not depend on the number of threads.
 /// @throws LimitError  some 2^32 leaves or more
-openvdb::MaskTree::Ptr filled(const openvdb::MaskTree& surface, const AreCavities& areCavities);
+std::shared_ptr<openvdb::MaskTree> filled(const openvdb::MaskTree& surface,
+                                          const AreCavities& areCavities);
 
 /// Bytes that `filled` needs besides its argument, its result included.
 std::uint64_t bytesOfFilling(const openvdb::MaskTree& surface);

@@ -2,6 +2,8 @@
 
 #include "libvox/volume/level_set.h"
 
+#include "libvox/grid/openvdb.h"
+
 #include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/ValueTransformer.h>

@@ -1,9 +1,10 @@
 #pragma once
 
-#include "libvox/grid/openvdb.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/mesh/polygon_mesh.h"
 
 #include <functional>
+#include <memory>
 
 namespace vox {
 
@@ -22,9 +23,10 @@ enum class DistanceTo {
 /// @param cancelled  asked from time to time; the grid is of no use once it says yes
 ///
 /// Parallel; the result does not depend on the number of threads.
-openvdb::FloatGrid::Ptr distanceGrid(const PolygonMesh& polygons,
-                                     const openvdb::math::Transform& transform, double band,
-                                     DistanceTo what, const std::function<bool()>& cancelled);
+std::shared_ptr<openvdb::FloatGrid> distanceGrid(const PolygonMesh& polygons,
+                                                 const openvdb::math::Transform& transform,
+                                                 double band, DistanceTo what,
+                                                 const std::function<bool()>& cancelled);
 
 /// Bytes that making one takes, and that it has in the end, from the area in square voxels, by and
 /// large.

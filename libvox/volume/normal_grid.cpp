@@ -3,6 +3,8 @@
 #include "libvox/volume/normal_grid.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
+#include "libvox/grid/voxel_means.h"
 
 #include <memory>
 #include <vector>

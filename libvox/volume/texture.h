@@ -1,8 +1,8 @@
 #pragma once
 
 #include "libvox/core/types.h"
-#include "libvox/grid/texture_spec.h"
 #include "libvox/grid/transform.h"
+#include "libvox/options/texture_spec.h"
 
 namespace vox {
 

@@ -3,6 +3,7 @@
 #include "libvox/volume/winding.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/types.h"
+#include "libvox/options/voxelize.h"
 
 #include <array>
 #include <bit>
@@ -9,10 +10,6 @@
 #include <type_traits>
 
 namespace vox {
-
-/// Which paths of inactive voxels the active voxels of a surface stop: those from face to face (6),
-/// or those through edges and corners too (26).
-enum class Separation { k6, k26 };
 
 /// Triangles are scanned with their corners at the nearest points of the lattice of this spacing
 /// (unit: voxels), halves to even.

@@ -1,15 +1,13 @@
 #pragma once
 
+#include "libvox/grid/active_voxels.h"
 #include "libvox/grid/leaf_cache.h"
 #include "libvox/mesh/patch.h"
+#include "libvox/voxelize/level_counts.h"
 
-#include <array>
 #include <cstdint>
 
 namespace vox {
-
-/// Vertices of each level.
-using LevelCounts = std::array<std::uint64_t, 128>;
 
 /// Vertex conversion: rounds the vertices of a surface to voxels of a shared grid.
 ///

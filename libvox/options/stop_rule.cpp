@@ -1,6 +1,6 @@
 // Names of the stop rules.
 
-#include "libvox/mesh/stop_rule.h"
+#include "libvox/options/stop_rule.h"
 
 #include <algorithm>
 #include <charconv>

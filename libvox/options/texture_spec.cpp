@@ -1,7 +1,7 @@
 // The parameters of solid textures as text: one table with the name, the parser and the writer of
 // each.
 
-#include "libvox/grid/texture_spec.h"
+#include "libvox/options/texture_spec.h"
 
 #include "libvox/core/color.h"
 #include "libvox/core/error.h"

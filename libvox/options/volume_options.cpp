@@ -1,6 +1,6 @@
 // Options of volumes: combination, checks, and what follows from the target program.
 
-#include "libvox/grid/volume_options.h"
+#include "libvox/options/volume_options.h"
 
 #include "libvox/core/error.h"
 
@@ -41,12 +41,6 @@ std::string gridNameFor(GridKind kind, const VolumeOptions& options) {
   const std::string name = nameIn(kGridNames, kind);
   if (options.target != Target::kHoudini) return name;
   return name == "normal" ? "N" : name == "color" ? "Cd" : name;
-}
-
-Turn turnOf(const VolumeOptions& options) {
-  const UpAxis targetUp = options.target == Target::kHoudini ? UpAxis::kY : UpAxis::kZ;
-  if (options.up.value_or(targetUp) == targetUp) return Turn::kNoTurn;
-  return targetUp == UpAxis::kZ ? Turn::kYToZ : Turn::kZToY;
 }
 
 void requireValid(const VolumeOptions& options) {

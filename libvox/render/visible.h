@@ -1,18 +1,12 @@
 #pragma once
 
 #include "libvox/grid/openvdb.h"
+#include "libvox/render/visible_options.h"
 
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace vox {
-
-struct VisibleOptions {
-  std::string grid;                 ///< that is shown; empty: chosen as told below
-  std::optional<double> threshold;  ///< fog above it is solid; default: a tenth of the largest
-};
 
 /// What there is to see in the grids of a file.
 struct VisibleGrids {

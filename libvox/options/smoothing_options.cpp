@@ -1,6 +1,6 @@
 // How smoothing options from two sources combine.
 
-#include "libvox/mesh/smoothing.h"
+#include "libvox/options/smoothing_options.h"
 
 namespace vox {
 

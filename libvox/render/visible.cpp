@@ -1,9 +1,10 @@
 // Which grids to show, and which of their voxels.
 
-#include "libvox/inspect/visible.h"
+#include "libvox/render/visible.h"
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 
 #include <openvdb/tools/Prune.h>

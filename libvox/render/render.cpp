@@ -1,11 +1,14 @@
 // A ray or more for every pixel, in tiles.
 
-#include "libvox/inspect/render.h"
+#include "libvox/render/render.h"
 
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
+#include "libvox/render/shading.h"
+#include "libvox/render/visible.h"
 
 #include <algorithm>
 #include <cmath>
@@ -179,6 +182,11 @@ Image render(const VisibleGrids& visible, const RenderOptions& options) {
   Progress unwatched;
   Progress& progress = options.progress != nullptr ? *options.progress : unwatched;
   return onThreads(options.threads, [&] { return renderViews(visible, options, progress); });
+}
+
+Image render(std::span<const std::shared_ptr<openvdb::GridBase>> grids, const VisibleOptions& what,
+             const RenderOptions& options) {
+  return render(visibleGrids(grids, what), options);
 }
 
 }  // namespace vox

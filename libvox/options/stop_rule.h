@@ -1,7 +1,5 @@
 #pragma once
 
-#include "libvox/core/names.h"
-
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,14 +35,5 @@ std::optional<StopRule> stopRuleNamed(std::string_view name);
 
 /// All valid names, as a message lists them.
 std::string allStopRuleNames();
-
-/// How a surface becomes voxels.
-enum class Voxelize {
-  kAuto,     ///< the faster of the two for the options
-  kVertex,   ///< every vertex activates its voxel
-  kPolygon,  ///< polygons are scan-converted
-};
-inline constexpr NameTable<Voxelize, 3> kVoxelizeNames = {
-    {{Voxelize::kAuto, "auto"}, {Voxelize::kVertex, "vertex"}, {Voxelize::kPolygon, "polygon"}}};
 
 }  // namespace vox

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "libvox/core/names.h"
 #include "libvox/core/types.h"
 #include "libvox/grid/openvdb.h"
-#include "libvox/inspect/camera.h"
-#include "libvox/inspect/ray_cast.h"
-#include "libvox/inspect/visible.h"
+#include "libvox/render/camera.h"
+#include "libvox/render/ray_cast.h"
+#include "libvox/render/shading_options.h"
+#include "libvox/render/visible.h"
 #include "libvox/volume/shading_normals.h"
 
 #include <memory>
@@ -13,23 +13,8 @@
 
 namespace vox {
 
-/// Which normals are shaded. A level set always shows those of its isosurface.
-enum class Shading {
-  kCongradient,  ///< estimated from the voxels around
-  kNormals,      ///< the stored ones; congradient where there is none
-  kFlat,         ///< the sides of voxels, to see them
-};
-inline constexpr NameTable<Shading, 3> kShadingNames = {{{Shading::kCongradient, "congradient"},
-                                                         {Shading::kNormals, "normals"},
-                                                         {Shading::kFlat, "flat"}}};
-
 /// Linear red, green and blue.
 using Light = Eigen::Vector3d;
-
-struct ShadingOptions {
-  Shading shading = Shading::kNormals;
-  int occlusionRays = 0;  ///< per sample, for ambient occlusion; 0: none
-};
 
 /// Colours of points on a surface in sight of a camera: diffuse reflection of a lamp above the left
 /// shoulder, a weak one from the right, and of a bright sky dimmed where the surface itself is in

@@ -2,7 +2,7 @@
 
 #include "libvox/core/names.h"
 #include "libvox/core/types.h"
-#include "libvox/grid/volume_options.h"
+#include "libvox/options/volume_options.h"
 
 #include <array>
 #include <limits>

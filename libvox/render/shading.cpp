@@ -1,6 +1,8 @@
 // Normals, lamps and the sky.
 
-#include "libvox/inspect/shading.h"
+#include "libvox/render/shading.h"
+
+#include "libvox/grid/openvdb.h"
 
 #include <Eigen/Geometry>
 

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "libvox/core/names.h"
-#include "libvox/grid/grid_kind.h"
-#include "libvox/grid/transform.h"
+#include "libvox/options/grid_kind.h"
 
 #include <optional>
 #include <string>
@@ -46,6 +45,9 @@ inline constexpr NameTable<Target, 3> kTargetNames = {{{Target::kBlender, "blend
 enum class UpAxis { kY, kZ };
 inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}}};
 
+inline constexpr double kDefaultBand = 3;          ///< voxels
+inline constexpr double kDefaultTolerance = 0.05;  ///< voxels
+
 /// Options of volumes. Options without a value are not set.
 struct VolumeOptions {
   std::optional<Fill> fill;          ///< default: kSurface
@@ -65,9 +67,6 @@ VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second
 
 /// Name of a grid in the file; depends on the target.
 std::string gridNameFor(GridKind kind, const VolumeOptions& options);
-
-/// Turn that brings the up axis of the input to the up axis of the target.
-Turn turnOf(const VolumeOptions& options);
 
 /// Checks the numbers among the options.
 /// @throws UsageError  one is out of range

@@ -1,6 +1,6 @@
 // Views, and how to frame a model in them.
 
-#include "libvox/inspect/camera.h"
+#include "libvox/render/camera.h"
 
 #include "libvox/core/error.h"
 

@@ -1,16 +1,20 @@
 #pragma once
 
-#include "libvox/inspect/camera.h"
-#include "libvox/inspect/shading.h"
-#include "libvox/inspect/visible.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/io/image.h"
+#include "libvox/render/camera.h"
+#include "libvox/render/shading_options.h"
+#include "libvox/render/visible_options.h"
 
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace vox {
 
 class Progress;
+struct VisibleGrids;
 
 struct RenderOptions {
   std::vector<View> views = {*viewNamed("iso")};  ///< several make a contact sheet
@@ -42,5 +46,9 @@ void requireRenderable(const RenderOptions& options);
 /// @throws LimitError  the image does not fit into memory
 /// @throws Cancelled   options.progress says so; it is told a stage "render"
 Image render(const VisibleGrids& visible, const RenderOptions& options);
+
+/// Pictures of the grids of a file: of visibleGrids(grids, what), which may throw besides.
+Image render(std::span<const std::shared_ptr<openvdb::GridBase>> grids, const VisibleOptions& what,
+             const RenderOptions& options);
 
 }  // namespace vox

@@ -1,8 +1,9 @@
 // Rays through OpenVDB trees. Source: Amanatides & Woo 1987, Museth 2014 (hierarchical DDA).
 
-#include "libvox/inspect/ray_cast.h"
+#include "libvox/render/ray_cast.h"
 
 #include "libvox/core/error.h"
+#include "libvox/grid/openvdb.h"
 
 #include <openvdb/math/DDA.h>
 #include <openvdb/tools/RayIntersector.h>

@@ -1,0 +1,12 @@
+// Functions of OpenVDB's trees and grids that its library has only inlined.
+
+#include "libvox/grid/openvdb.h"
+
+namespace openvdb {
+OPENVDB_USE_VERSION_NAMESPACE
+namespace OPENVDB_VERSION_NAME {
+
+template MaskGrid::Ptr Grid<MaskTree>::create(const bool&);
+
+}  // namespace OPENVDB_VERSION_NAME
+}  // namespace openvdb

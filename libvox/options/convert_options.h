@@ -1,0 +1,36 @@
+#pragma once
+
+#include "libvox/options/grid_kind.h"
+#include "libvox/options/preparation_options.h"
+#include "libvox/options/run_options.h"
+#include "libvox/options/stop_rule.h"
+#include "libvox/options/surface_options.h"
+#include "libvox/options/texture_spec.h"
+#include "libvox/options/volume_options.h"
+#include "libvox/options/voxelize.h"
+
+#include <optional>
+#include <vector>
+
+namespace vox {
+
+inline constexpr int kDefaultDim = 256;
+
+/// How to convert. A value that is not set comes from the object, else from the scene, else from
+/// the default.
+struct ConvertOptions : PreparationOptions {
+  std::optional<int> dim;  ///< voxels along the longest side of the input; default: kDefaultDim
+  std::optional<double> voxelSize;             ///< world units; overrides dim
+  std::optional<std::vector<GridKind>> grids;  ///< default: density
+  std::optional<StopRule> until;               ///< default: voxel
+  std::optional<Voxelize> voxelize;            ///< default: auto
+  Separation separation = Separation::k6;
+  VolumeOptions volume;
+  /// Replaces the textures and colours of all objects, and adds the color grid to those of the
+  /// scene.
+  std::optional<TextureSpec> texture;
+  SurfaceOptions surface;
+  RunOptions run;
+};
+
+}  // namespace vox
