@@ -43,7 +43,7 @@ TEST_CASE("a power law gives back its exponent", "[bench]") {
   CHECK(fitExponent(x, raised).value() < exponent);
 }
 
-TEST_CASE("no exponent is made up from too little", "[bench]") {
+TEST_CASE("too few points give no exponent", "[bench]") {
   CHECK_FALSE(fitExponent(Values{}, Values{}));
   CHECK_FALSE(fitExponent(Values{2}, Values{3}));
   CHECK_FALSE(fitExponent(Values{2, 2}, Values{3, 4}));

@@ -300,7 +300,7 @@ TEST_CASE("an extended sheet is the biquadratic B-spline of the grid with reflec
   }
 }
 
-TEST_CASE("closed meshes know no boundary rule", "[subdivide][boundary]") {
+TEST_CASE("the boundary rule does not change closed meshes", "[subdivide][boundary]") {
   for (const auto& shape : test::shapes()) {
     if (!shape.closed) continue;
     CAPTURE(shape.name);
@@ -312,7 +312,7 @@ TEST_CASE("closed meshes know no boundary rule", "[subdivide][boundary]") {
   }
 }
 
-TEST_CASE("fans that touch in a boundary vertex part, each with its own boundary",
+TEST_CASE("fans that touch in a boundary vertex are separated, each with its own boundary",
           "[subdivide][boundary]") {
   SubdivisionLevel level = subdivide(baseLevel(openBowTie()), 1);
   CHECK(level.adjacency.twin == buildAdjacency(level.mesh).twin);

@@ -95,7 +95,8 @@ class Collector : public ColoredSink {
 
 }  // namespace
 
-TEST_CASE("colours that follow the place still do on the smooth surface", "[color][property]") {
+TEST_CASE("colours that are linear in position stay so on the smooth surface",
+          "[color][property]") {
   // Doo-Sabin refines colours as it refines positions, so what is affine stays so, everywhere. A
   // voxel's mean is that of places at most half a voxel from its centre along each axis.
   std::vector<test::Shape> shapes = test::shapes();
@@ -160,7 +161,8 @@ TEST_CASE("the colours of points come before those of faces", "[color]") {
     CHECK(*voxel == openvdb::Vec3f(0, 1, 0));
 }
 
-TEST_CASE("vertices and colours have the same bits however the mesh is cut", "[color][property]") {
+TEST_CASE("vertices and colours have the same bits for any partition of the mesh",
+          "[color][property]") {
   std::vector<test::Shape> shapes = test::shapes();
   shapes.insert(shapes.end(), test::openShapes().begin(), test::openShapes().end());
   for (const auto& shape : shapes)
@@ -180,8 +182,9 @@ TEST_CASE("vertices and colours have the same bits however the mesh is cut", "[c
     }
 }
 
-TEST_CASE("around a face of many sides samples reach the voxels with the colours of their place",
-          "[color][property]") {
+TEST_CASE(
+    "around a face of many sides, samples reach all voxels with the colours of their positions",
+    "[color][property]") {
   for (const PolygonMesh& shape : {test::prism(300), test::pyramid(300)}) {
     const PolygonMesh mesh = coloredByPlace(scaled(shape, 40));
     const Box box = usedBox(mesh);
@@ -210,8 +213,9 @@ TEST_CASE("around a face of many sides samples reach the voxels with the colours
   }
 }
 
-TEST_CASE("where rows and columns run the same way samples are no more than lie along them",
-          "[color][property]") {
+TEST_CASE(
+    "if rows and columns run the same way, samples grow with their length, not with its square",
+    "[color][property]") {
   const auto samplesAt = [](double scale) {
     PolygonMesh mesh = coloredByPlace(test::sheet(6, 6));
     for (Vec3d& p : mesh.points) p = scale * Vec3d(p.x() + p.y(), 0.01 * p.y(), 0.01 * p.z());

@@ -111,7 +111,7 @@ TEST_CASE("no path of inactive voxels joins the sides of a long thin bar", "[pip
   }
 }
 
-TEST_CASE("of a needle few vertices are made, and none of it is lost", "[pipeline]") {
+TEST_CASE("a needle needs few vertices and loses no voxels", "[pipeline]") {
   const PolygonMesh needle = test::meshOf({{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}, {0.5, 0.3, 4000}},
                                           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
   ConvertOptions options;
@@ -409,7 +409,7 @@ TEST_CASE("an extended sheet reaches its boundary, and its corners if interpolat
   CHECK(isOn(40, 40));
 }
 
-TEST_CASE("contradictory arrays are refused, not followed", "[pipeline][error]") {
+TEST_CASE("contradictory arrays are refused", "[pipeline][error]") {
   PolygonMesh mesh = test::cube();
   mesh.faceVertices[5] = 50000000;
   CHECK_THROWS_AS(convert(sceneOf(mesh), maskAt(8)), MeshError);
@@ -440,7 +440,7 @@ TEST_CASE("a Moebius strip is converted with a warning", "[pipeline]") {
   CHECK_THAT(conversion.report.warnings[0], Contains("one-sided"));
 }
 
-TEST_CASE("what repair did is told in one line", "[pipeline]") {
+TEST_CASE("a conversion reports repairs in one line", "[pipeline]") {
   const PolygonMesh cube = test::cube();
   const Conversion conversion = convert(sceneOf(test::unwelded(cube)), maskAt(30));
   REQUIRE(conversion.report.warnings.size() == 1);

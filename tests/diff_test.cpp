@@ -139,7 +139,8 @@ void writePlainly(const std::filesystem::path& file, const openvdb::GridPtrVec& 
 
 }  // namespace
 
-TEST_CASE("a comparison finds what a look at every voxel finds", "[inspect][diff][property]") {
+TEST_CASE("a comparison finds the same as a comparison voxel by voxel",
+          "[inspect][diff][property]") {
   std::mt19937 random(1);
   for (int i = 0; i < 60; ++i) {
     CAPTURE(i);
@@ -162,7 +163,7 @@ TEST_CASE("a comparison finds what a look at every voxel finds", "[inspect][diff
   }
 }
 
-TEST_CASE("tiles are the voxels they stand for", "[inspect][diff]") {
+TEST_CASE("a tile counts as its voxels", "[inspect][diff]") {
   auto tile = gridNamed<openvdb::FloatGrid>("g");
   tile->fill(CoordBBox::createCube({0, 0, 0}, 128), 2.0F, true);
   REQUIRE(tile->tree().leafCount() == 0);
@@ -301,7 +302,7 @@ TEST_CASE("files are compared by the names of their grids, not by UUID", "[inspe
   CHECK_THROWS_WITH(diffVdb(folder / "c.vdb", folder / "a.vdb", options), Contains("'fog'"));
 }
 
-TEST_CASE("half precision is a matter of the file", "[inspect][diff]") {
+TEST_CASE("values of half precision are rounded in the file only", "[inspect][diff]") {
   const test::TemporaryFolder folder;
   auto grid = gridNamed<openvdb::FloatGrid>("density");
   grid->tree().setValueOn({1, 2, 3}, 1.0F / 3);

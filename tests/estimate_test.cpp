@@ -82,7 +82,7 @@ TEST_CASE("estimates are within a factor of 1.5 for every scene", "[estimate]") 
     }
 }
 
-TEST_CASE("estimates know of solids, wide bands and polygons", "[estimate]") {
+TEST_CASE("estimates cover solids, wide bands and polygons", "[estimate]") {
   for (const auto& mesh : {test::cube(), test::torusGrid(40, 20), test::prism(12)}) {
     Scene scene;
     scene.objects.push_back({"object", mesh});

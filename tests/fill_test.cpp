@@ -67,8 +67,7 @@ std::int64_t volumeOf(const CoordBBox& box) {
 
 }  // namespace
 
-TEST_CASE("a fill is what a search from outside, voxel by voxel, does not reach",
-          "[volume][property]") {
+TEST_CASE("a fill has the voxels that a search from outside does not reach", "[volume][property]") {
   std::mt19937 random(7);
   for (const int side : {5, 20, 40})
     for (const double density : {0.3, 0.5, 0.65, 0.69, 0.72, 0.8}) {
@@ -101,7 +100,7 @@ TEST_CASE("a box is filled with tiles, and leaks through one missing voxel", "[v
   }
 }
 
-TEST_CASE("what is enclosed may be larger than the largest node", "[volume]") {
+TEST_CASE("enclosed regions may be larger than the largest node", "[volume]") {
   // A shell of active tiles, 4096 thick, around 3 x 1 x 1 empty places of upper nodes, the middle
   // one of which has no neighbour that is there.
   constexpr int kDim = 4096;
@@ -139,7 +138,8 @@ TEST_CASE("voxels scattered over all space enclose nothing", "[volume]") {
   CHECK(filled(tree, {})->activeVoxelCount() == tree.activeVoxelCount());
 }
 
-TEST_CASE("enclosed regions are asked for one by one, by a voxel inside", "[volume]") {
+TEST_CASE("cavities are chosen among all enclosed regions, each given by a voxel inside",
+          "[volume]") {
   const CoordBBox outer(Coord(0), Coord(400));
   const CoordBBox middle(Coord(100), Coord(300));
   const CoordBBox inner(Coord(198), Coord(202));
@@ -165,7 +165,7 @@ TEST_CASE("enclosed regions are asked for one by one, by a voxel inside", "[volu
         volumeOf(outer) - volumeOf(cavity) + volumeOf(inner));
 }
 
-TEST_CASE("any number of threads fills alike", "[volume][parallel]") {
+TEST_CASE("thread count never changes a fill", "[volume][parallel]") {
   std::mt19937 random(11);
   MaskTree tree;
   std::uniform_int_distribution<int> at(0, 150);

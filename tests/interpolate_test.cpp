@@ -125,7 +125,7 @@ PolygonMesh roughened(const PolygonMesh& mesh, double size) {
 
 }  // namespace
 
-TEST_CASE("the surface passes through the vertices asked for, in every combination",
+TEST_CASE("the surface passes through the chosen vertices, in every combination",
           "[prepare][property]") {
   for (const auto& shape : allShapes())
     for (const Interpolate which : {Interpolate::kNothing, Interpolate::kInterior,
@@ -216,7 +216,7 @@ TEST_CASE("vertices that cannot be interpolated are refused by number", "[prepar
   CHECK_THROWS_WITH(interpolateBoundary(touching, buildAdjacency(touching)), Contains("vertex 0"));
 }
 
-TEST_CASE("a prescribed boundary vertex is served by boundary interpolation", "[prepare]") {
+TEST_CASE("a prescribed boundary vertex needs boundary interpolation", "[prepare]") {
   const SubdivisionLevel level = baseLevel(test::sheet(3, 3));
   InterpolationReport report;
   const std::vector<Index> list = {0, 5};
@@ -225,7 +225,7 @@ TEST_CASE("a prescribed boundary vertex is served by boundary interpolation", "[
   CHECK(report.lift.vertices == 1);
 }
 
-TEST_CASE("vertices without a V-face are left out of all interior ones", "[prepare]") {
+TEST_CASE("interpolating all interior vertices leaves out those without a V-face", "[prepare]") {
   for (const auto& mesh : {test::valenceTwo(), test::bowTie()}) {
     const SubdivisionLevel level = baseLevel(mesh);
     InterpolationReport report;

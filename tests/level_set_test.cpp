@@ -153,7 +153,7 @@ TEST_CASE("overlapping objects and components are united", "[level-set]") {
   }
 }
 
-TEST_CASE("a component that faces inward is taken out, and what lies in it is put back",
+TEST_CASE("a component that faces inward is a cavity, and components in it are solid",
           "[level-set]") {
   const PolygonMesh cube = test::cube();
   PolygonMesh all =
@@ -199,7 +199,7 @@ TEST_CASE("an open mesh is a sheet one voxel thick, or distances without sign, o
   CHECK_THROWS_AS(convert(sceneOf({flat}), options), MeshError);
 }
 
-TEST_CASE("an open object beside a closed one leaves it its sign", "[level-set]") {
+TEST_CASE("a closed object keeps its sign beside an open one", "[level-set]") {
   for (const OpenMesh policy : {OpenMesh::kSurface, OpenMesh::kUnsigned}) {
     ConvertOptions options = surfaceAt(0.1);
     options.volume.openMesh = policy;
@@ -218,7 +218,7 @@ TEST_CASE("the polygons of a level have their own level set", "[level-set]") {
   CHECK(valueAt(*grid, Vec3d(0, 1.2, 0)) == Approx(0.2).margin(1e-5));
 }
 
-TEST_CASE("a level set needs no voxels, and says nothing of them", "[level-set]") {
+TEST_CASE("a level set is made without voxels, and none are reported", "[level-set]") {
   const Conversion alone = convert(sceneOf({test::cube()}), surfaceAt(0.1));
   CHECK(alone.report.activeVoxels == surfaceOf(alone)->activeVoxelCount());
   CHECK((*alone.grids[0])["vox_options"] != nullptr);

@@ -136,7 +136,7 @@ TEST_CASE("at one depth everywhere, local polygons are the level of global Doo-S
   });
 }
 
-TEST_CASE("whatever the depths, the polygons have no gap", "[subdivide][localize][property]") {
+TEST_CASE("polygons have no gaps for any depths", "[subdivide][localize][property]") {
   std::uint32_t seed = 0;
   forShapes([&](const SubdivisionLevel& base) {
     const SubdivisionLevel first = subdivide(base, 1);
@@ -160,7 +160,7 @@ TEST_CASE("whatever the depths, the polygons have no gap", "[subdivide][localize
   });
 }
 
-TEST_CASE("polygons as fine as a rule says have no gap, thin parts with fewer vertices included",
+TEST_CASE("polygons refined by a rule have no gaps, also with fewer vertices in thin parts",
           "[subdivide][localize][property]") {
   std::size_t saved = 0;
   for (const StopRule& until :
@@ -371,7 +371,7 @@ double degreesBetween(const Vec3d& a, const Vec3d& b) {
 
 }  // namespace
 
-TEST_CASE("normals never show in the polygons, and are the same from all pieces",
+TEST_CASE("normals do not change the polygons, and are the same in all pieces",
           "[subdivide][localize][normals][property]") {
   std::uint32_t seed = 100;
   forShapes([&](SubdivisionLevel base) {
@@ -398,7 +398,7 @@ TEST_CASE("normals never show in the polygons, and are the same from all pieces"
   });
 }
 
-TEST_CASE("tiles of large arrays bring the normals of their neighbours",
+TEST_CASE("tiles of large arrays have the same normals as the pieces beside them",
           "[subdivide][localize][normals]") {
   const SubdivisionLevel base = prepared(test::tetrahedron(), BoundaryRule::kExtend);
   std::vector<VertexDepth> depths(base.mesh.cornerCount());

@@ -122,7 +122,7 @@ TEST_CASE("submeshes emit the vertices of the whole mesh, each once and at its l
         }
 }
 
-TEST_CASE("the vertices of long thin patches are the same for every cut, and few",
+TEST_CASE("the vertices of long thin patches are few, and the same for every partition",
           "[subdivide][localize][property]") {
   const SubdivisionLevel base = scaled(test::torusGrid(4, 64), 60.0, BoundaryRule::kExtend);
   const Collector whole = globally(base);
@@ -135,7 +135,7 @@ TEST_CASE("the vertices of long thin patches are the same for every cut, and few
   CHECK(count < (std::size_t{1024} << (2 * (deepest - 1))) / 8);
 }
 
-TEST_CASE("a long bar is the same for every cut, though it is thin askew",
+TEST_CASE("a long bar at an angle to the axes is the same for every partition",
           "[subdivide][localize][property]") {
   RepairReport report;
   const SubdivisionLevel base = scaled(repair(bar(40), {}, report), 2.0, BoundaryRule::kExtend);

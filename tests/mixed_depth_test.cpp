@@ -82,7 +82,7 @@ SubdivisionLevel placed(PolygonMesh mesh, double side, std::uint32_t seed) {
 
 }  // namespace
 
-TEST_CASE("vertices may stop at any level from where the faces around them fit into a voxel",
+TEST_CASE("vertices may stop at any level once the faces around them fit into a voxel",
           "[voxelize][subdivide][property]") {
   std::size_t tried = 0;
   for (const auto& shape : test::shapes()) {

@@ -84,7 +84,7 @@ TEST_CASE("every face starts at its lowest vertex", "[orient]") {
   }
 }
 
-TEST_CASE("flipping and rotating any faces of a closed mesh changes not a bit",
+TEST_CASE("flipping and rotating any faces of a closed mesh changes nothing",
           "[orient][property]") {
   for (const auto& shape : test::shapes()) {
     if (!shape.closed || shape.name == "bow tie") continue;
@@ -144,7 +144,7 @@ TEST_CASE("repair and orient together ignore winding and rotation of a crowded m
   }
 }
 
-TEST_CASE("a cavity keeps facing inward, when the input says so", "[orient]") {
+TEST_CASE("a cavity keeps facing inward if it does so in the input", "[orient]") {
   const PolygonMesh solid = test::cube();
   const PolygonMesh hollow =
       test::together(solid, test::insideOut(test::cube()), {0.1, 0.2, 0.1}, 0.5);
@@ -226,7 +226,7 @@ TEST_CASE("the two sides of a one-sided surface subdivide to the same points", "
   CHECK(test::samePoints(even, odd, 1e-12));
 }
 
-TEST_CASE("one-sided surfaces do not depend on winding and rotation but for the side", "[orient]") {
+TEST_CASE("winding and rotation change only the side of one-sided surfaces", "[orient]") {
   const PolygonMesh strip = test::moebius(9);
   const auto expected = oriented(strip);
   for (std::uint32_t seed = 0; seed < 20; ++seed) {

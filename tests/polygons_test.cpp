@@ -204,7 +204,8 @@ TEST_CASE("a prism of any number of sides has the voxels of its faces as fans",
   CHECK(maskOf(conversion).tree().hasSameTopology(expected));
 }
 
-TEST_CASE("polygons of any level separate inside from outside as asked", "[polygons][property]") {
+TEST_CASE("polygons of any level separate inside from outside, by either separation",
+          "[polygons][property]") {
   const int levels = GENERATE(0, 1, 3);
   bool diagonalStepsLeak = false;
   for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::prism(7)}) {
@@ -261,7 +262,7 @@ TEST_CASE("vertex conversion of a deep refinement stays within a voxel of its po
   }
 }
 
-TEST_CASE("options say where to stop before objects, objects before the scene", "[polygons]") {
+TEST_CASE("a stop rule of the options wins over objects, theirs over the scene", "[polygons]") {
   Scene scene = sceneOf(test::cube());
   scene.objects.push_back({"second", test::cube()});
   scene.until = StopRule{1};
@@ -299,7 +300,7 @@ TEST_CASE("one object may stay polygons while another is smoothed", "[polygons]"
   CHECK_THROWS_WITH(convert(scene, options), Contains("object") && Contains("needs --until voxel"));
 }
 
-TEST_CASE("an open mesh left as it is does not shrink, and nobody says so", "[polygons]") {
+TEST_CASE("an open mesh at level 0 does not shrink, and there is no warning", "[polygons]") {
   ConvertOptions options = polygonsAt(0.1, 0, Separation::k6);
   options.smoothing.boundary = BoundaryRule::kFree;
   CHECK(convert(sceneOf(test::sheet(3, 3)), options).report.warnings.empty());
@@ -318,7 +319,7 @@ TEST_CASE("polygons that fold become fans, with a warning", "[polygons]") {
   CHECK_THAT(conversion.report.warnings[0], Contains("object: 1 polygon is folded"));
 }
 
-TEST_CASE("polygons that cannot be had are refused", "[polygons][error]") {
+TEST_CASE("impossible options for polygons are refused", "[polygons][error]") {
   const Scene scene = sceneOf(test::cube());
   ConvertOptions options = polygonsAt(0.1, 0, Separation::k26);
   for (const int levels : {-1, kMostLevels + 1}) {
@@ -377,7 +378,8 @@ TEST_CASE("voxels of refined polygons are the same for every cut and any threads
     }
 }
 
-TEST_CASE("polygons of every rule separate inside from outside as asked", "[polygons][property]") {
+TEST_CASE("polygons of every rule separate inside from outside, by either separation",
+          "[polygons][property]") {
   for (const StopRule& rule :
        {StopRule{{}, 3.0}, StopRule{{}, {}, 10.0}, StopRule{{}, {}, {}, 0.1}, StopRule{2, 1.0}})
     for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::prism(7)})
@@ -414,7 +416,7 @@ TEST_CASE("vertices lie in the 26-separating voxels of the polygons that fit int
   }
 }
 
-TEST_CASE("triangles for others keep to the rule and are the same for any threads",
+TEST_CASE("the triangle soup of a surface is closed and the same for any threads",
           "[polygons][parallel]") {
   SubdivisionLevel base = baseLevel(test::dodecahedron());
   for (Vec3d& p : base.mesh.points) p *= 50;

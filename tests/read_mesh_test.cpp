@@ -95,7 +95,7 @@ TEST_CASE("the extension names the format whatever its case", "[io]") {
   CHECK(polygonsOf(readText(".Off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")) == kOneTriangle);
 }
 
-TEST_CASE("what is no readable file is refused by name", "[io][error]") {
+TEST_CASE("unreadable files are refused by name", "[io][error]") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "folder.obj");
   const auto pipe = folder / "pipe.obj";

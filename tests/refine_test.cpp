@@ -67,7 +67,7 @@ TEST_CASE("level 0 is the control mesh when vertices are interpolated", "[pipeli
   CHECK(refine(inScene, 0, none, {}).mesh.points == test::cube().points);
 }
 
-TEST_CASE("what cannot be interpolated is said", "[pipeline][error]") {
+TEST_CASE("vertices that cannot be interpolated are refused with a reason", "[pipeline][error]") {
   PreparationOptions options;
   options.smoothing.interpolatedVertices = std::vector<Index>{8};
   CHECK_THROWS_WITH(refine(sceneOf({test::valenceTwo()}), 0, options, {}),

@@ -131,7 +131,7 @@ TEST_CASE("colours are those of the grid, seen from the right side", "[inspect]"
   CHECK_FALSE(isRed(render(ball(), behind).at(35, 40)));
 }
 
-TEST_CASE("the background is as asked for", "[inspect]") {
+TEST_CASE("the background has the chosen colour", "[inspect]") {
   RenderOptions options = small();
   CHECK(render(ball(), options).at(0, 0) == Pixel{0, 0, 0, 0});
   options.background = {10, 20, 30, 255};
@@ -187,7 +187,7 @@ TEST_CASE("the sky is dim in a pit", "[inspect]") {
   CHECK(brightness(image.at(50, 40)) < brightness(image.at(30, 40)));
 }
 
-TEST_CASE("nonsense is refused, and a run can be cancelled", "[inspect][error]") {
+TEST_CASE("invalid options are refused, and a run can be cancelled", "[inspect][error]") {
   const auto with = [](auto change) {
     RenderOptions options = small();
     change(options);

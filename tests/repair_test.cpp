@@ -117,7 +117,7 @@ TEST_CASE("points that stay are further apart than the tolerance, the others wit
   }
 }
 
-TEST_CASE("a tolerance that is no distance is refused", "[repair][weld][error]") {
+TEST_CASE("an invalid weld tolerance is refused", "[repair][weld][error]") {
   RepairReport report;
   CHECK_THROWS_AS(repair(test::cube(), {-1}, report), UsageError);
   CHECK_THROWS_AS(repair(test::cube(), {std::numeric_limits<double>::quiet_NaN()}, report),

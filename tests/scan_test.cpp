@@ -291,8 +291,7 @@ TEST_CASE("corners are scanned at the nearest lattice point, wherever they are l
   }
 }
 
-TEST_CASE("coordinates out of range, triangles too long and what is no number are refused",
-          "[voxelize][error]") {
+TEST_CASE("coordinates out of range, nan and triangles too long are refused", "[voxelize][error]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const double most = 1 << 30;

@@ -110,7 +110,7 @@ TEST_CASE("polygon conversion leaves no tunnels", "[inspect][separation][propert
         }
 }
 
-TEST_CASE("a voxel less is a tunnel where a flood from inside gets out, and nowhere else",
+TEST_CASE("removing a voxel makes a tunnel exactly if a flood from inside gets out there",
           "[inspect][separation][property]") {
   // The other implementation labels all of space by winding numbers.
   std::size_t tunnels = 0;
@@ -141,7 +141,7 @@ TEST_CASE("a voxel less is a tunnel where a flood from inside gets out, and nowh
   CHECK(sound > 2);
 }
 
-TEST_CASE("any voxel less of a thin plane is a tunnel, away from its rim",
+TEST_CASE("removing any voxel of a thin plane, away from its rim, makes a tunnel",
           "[inspect][separation]") {
   PolygonMesh plane;
   plane.points = {{-9.6, -9.6, 0.2}, {9.4, -9.6, 0.2}, {9.4, 9.4, 0.2}, {-9.6, 9.4, 0.2}};
@@ -165,8 +165,7 @@ TEST_CASE("any voxel less of a thin plane is a tunnel, away from its rim",
   }
 }
 
-TEST_CASE("polygons that stop here and there meet where their corners do",
-          "[inspect][separation]") {
+TEST_CASE("polygons of different depths meet without gaps", "[inspect][separation]") {
   // Were there gaps, the steps beside them would not count, and no tunnel would be found.
   const StopRule until = {.diameter = 4, .angle = 8};
   PolygonMesh mesh = test::dodecahedron();

@@ -143,7 +143,7 @@ TEST_CASE("the whole mesh level by level has the voxels of its submeshes, but fo
   CHECK(ties < 1000);
 }
 
-TEST_CASE("split patches fill one grid alike on any number of threads", "[pipeline][parallel]") {
+TEST_CASE("thread count never changes the voxels of split patches", "[pipeline][parallel]") {
   const SubdivisionLevel base = largeCube();
   const Marked first = mark(base, {});
   for (const int threads : {1, 2, 8}) {
@@ -167,8 +167,7 @@ TEST_CASE("a level of the whole mesh that cannot fit is refused before it is mad
                     Contains("of the whole mesh needs about") && Contains("use --localize during"));
 }
 
-TEST_CASE("the bar moves evenly while a surface is made, also when it is one submesh",
-          "[pipeline]") {
+TEST_CASE("progress advances evenly while a surface is made, also with one submesh", "[pipeline]") {
   for (const auto localize : {Localize::kBefore, Localize::kDuring}) {
     double last = 0;
     double largestStep = 0;

@@ -288,7 +288,7 @@ TEST_CASE("strips that are not wide are called fillable, mostly", "[subdivide][p
   CHECK(missed < yes / 2);
 }
 
-TEST_CASE("a patch is the same thin one from all of its sides", "[subdivide][property]") {
+TEST_CASE("a patch gives the same thin patch from all of its sides", "[subdivide][property]") {
   RandomPatches patches{std::mt19937(10)};
   int thin = 0;
   for (int trial = 0; trial < 400; ++trial) {
@@ -335,7 +335,7 @@ TEST_CASE("a patch as wide as long, one of few levels and one at a free boundary
   CHECK_FALSE(isThin(open));
 }
 
-TEST_CASE("a patch of which part turns back has fewer vertices in parts, at their own depths",
+TEST_CASE("a patch that turns back in part has fewer vertices if split, each part at its own depth",
           "[subdivide][property]") {
   RandomPatches patches{std::mt19937(9)};
   int split = 0;
@@ -374,7 +374,7 @@ TEST_CASE("a patch of which part turns back has fewer vertices in parts, at thei
   CHECK(split > 10);
 }
 
-TEST_CASE("the outermost vertices do for a patch without width", "[subdivide]") {
+TEST_CASE("the outermost vertices are enough for a patch without width", "[subdivide]") {
   Patch patch;
   for (std::size_t u = 0; u < 3; ++u)
     for (std::size_t v = 0; v < 3; ++v)

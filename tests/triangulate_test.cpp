@@ -228,7 +228,7 @@ TEST_CASE("ears are clipped all around, not in a fan", "[voxelize][triangulate]"
   CHECK(sides(triangulated(corners).triangles) < sides(fan) / 2);
 }
 
-TEST_CASE("what has no ears becomes a fan and is counted", "[voxelize][triangulate]") {
+TEST_CASE("a polygon without ears becomes a fan and is counted", "[voxelize][triangulate]") {
   const Vec3d a(0, 0, 0);
   const Vec3d b(1, 0, 0);
   const Vec3d c(0, 1, 0);

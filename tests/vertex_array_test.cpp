@@ -141,7 +141,7 @@ TEST_CASE("the normal of any vertex is that of its V-face", "[subdivide][normals
     });
 }
 
-TEST_CASE("normals are what faces six levels deeper turn to", "[subdivide][normals][property]") {
+TEST_CASE("normals agree with those of faces six levels deeper", "[subdivide][normals][property]") {
   for (const PolygonMesh& mesh : {test::tetrahedron(), test::cube(), test::prism(5)}) {
     const SubdivisionLevel base = prepared(mesh);
     const FaceNormals faces(subdivide(base, 7).mesh);
@@ -175,7 +175,7 @@ TEST_CASE("rows of normals have the bits of single ones", "[subdivide][normals]"
     });
 }
 
-TEST_CASE("whether normals are wanted never shows in points", "[subdivide][normals]") {
+TEST_CASE("normals never change points", "[subdivide][normals]") {
   for (const auto* shapes : {&test::shapes(), &test::openShapes()})
     for (const auto& shape : *shapes) {
       CAPTURE(shape.name);
@@ -192,7 +192,8 @@ TEST_CASE("whether normals are wanted never shows in points", "[subdivide][norma
     }
 }
 
-TEST_CASE("normals on a boundary are those that rows beside it come to", "[subdivide][normals]") {
+TEST_CASE("normals on a boundary are the limit of normals in the rows beside it",
+          "[subdivide][normals]") {
   constexpr int kDeeper = 7;
   std::size_t tried = 0;
   for (const PolygonMesh& mesh :
@@ -248,8 +249,7 @@ TEST_CASE("a flat sheet has one normal, missing faces or not", "[subdivide][norm
   }
 }
 
-TEST_CASE("at a free boundary, normals keep near those of the faces that are there",
-          "[subdivide][normals]") {
+TEST_CASE("at a free boundary, normals are close to those of the faces", "[subdivide][normals]") {
   PolygonMesh mesh = test::sheet(4, 3);
   const SubdivisionLevel base = prepared(mesh, BoundaryRule::kFree);
   const FaceNormals faces(subdivide(base, 7).mesh);
@@ -260,7 +260,7 @@ TEST_CASE("at a free boundary, normals keep near those of the faces that are the
   });
 }
 
-TEST_CASE("what has no tangent plane has no normal", "[subdivide][normals]") {
+TEST_CASE("a vertex without a tangent plane has no normal", "[subdivide][normals]") {
   Patch patch;
   for (auto& row : patch.points) row.fill(Vec3d(0.1, 0.7, 1e6 / 3));
   CHECK(limitNormal(patch, 0, 1, 0, 1).isZero(0));

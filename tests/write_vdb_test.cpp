@@ -95,7 +95,7 @@ TEST_CASE("OpenVDB reads back every voxel and the UUID", "[io]") {
   CHECK(mask->tree().isValueOn({1, 2, 3}));
 }
 
-TEST_CASE("grids come out in the bytes that OpenVDB writes by itself", "[io][parallel]") {
+TEST_CASE("grids have the bytes that OpenVDB alone would write", "[io][parallel]") {
   openvdb::initialize();
   const auto withoutUuid = [](std::string bytes) { return bytes.replace(21, 36, 36, '-'); };
   for (const auto compression : {Compression::kBlosc, Compression::kZip, Compression::kPlain})
