@@ -111,7 +111,7 @@ TEST_CASE("where objects share voxels, the colour of the later one stays", "[col
     CHECK(*voxel == (later ? openvdb::Vec3f(0, 0, 1) : openvdb::Vec3f(1, 0, 0)));
   }
   CHECK(shared > 10);
-  // The voxels and their counts are those of a conversion that does not ask for colours.
+  // The voxels and their counts are those of a conversion without colours.
   ConvertOptions plain = colorAt(0.1);
   plain.grids = std::vector{GridKind::kMask};
   const Conversion without = convert(scene, plain);

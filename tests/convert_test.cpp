@@ -40,7 +40,7 @@ const openvdb::MaskGrid& maskOf(const Conversion& conversion) {
   return dynamic_cast<const openvdb::MaskGrid&>(*conversion.grids.at(0));
 }
 
-/// The mesh whose vertices were converted, in voxels.
+/// The mesh whose vertices were converted, in index space.
 PolygonMesh refinedIndex(const PolygonMesh& mesh, const Conversion& conversion) {
   PolygonMesh refined = subdivide(baseLevel(mesh), conversion.report.objects[0].levels).mesh;
   for (Vec3d& p : refined.points) p /= conversion.report.voxelSize;
@@ -93,7 +93,7 @@ TEST_CASE("no path of inactive voxels joins the sides of a closed surface",
 }
 
 TEST_CASE("no path of inactive voxels joins the sides of a long thin bar", "[pipeline][property]") {
-  // Its patches go out as rows: see that these still separate, whatever the angle.
+  // Its patches are emitted as rows, which must separate at any angle.
   for (const double angle : {0.0, 0.3, 0.7853981633974483}) {
     CAPTURE(angle);
     PolygonMesh bar = test::cube();
@@ -101,7 +101,7 @@ TEST_CASE("no path of inactive voxels joins the sides of a long thin bar", "[pip
       p = Vec3d(12 * p.x() * std::cos(angle) - p.y() * std::sin(angle),
                 12 * p.x() * std::sin(angle) + p.y() * std::cos(angle), p.z());
     const Conversion conversion = convert(sceneOf(bar), maskAt(45));
-    constexpr int kLevels = 4;  // the surface, near enough: within 0.1 voxels
+    constexpr int kLevels = 4;  // within 0.1 voxels of the surface
     PolygonMesh surface = subdivide(baseLevel(bar), kLevels).mesh;
     for (Vec3d& p : surface.points) p /= conversion.report.voxelSize;
     const test::Sides sides = test::sidesOf(surface, maskOf(conversion));
@@ -145,7 +145,7 @@ TEST_CASE("an open sheet has no hole from one side to the other", "[pipeline][pr
   ConvertOptions options = maskAt(40);
   options.smoothing.boundary = rule;
   const Conversion conversion = convert(sceneOf(test::sheet(5, 4)), options);
-  // Plain Doo-Sabin ends half a face inside the boundary; look at the columns within.
+  // Plain Doo-Sabin ends half a face inside the boundary; only columns within are checked.
   const double unit = 1 / conversion.report.voxelSize;
   const auto at = [&](double x) { return static_cast<int>(x * unit); };
   const openvdb::CoordBBox box(at(1), at(1), at(-1), at(4), at(3), at(1));

@@ -29,7 +29,8 @@ typename Grid::Ptr gridNamed(const std::string& name,
   return grid;
 }
 
-/// Boxes, so that there are tiles, and voxels with a few values, around the corner of eight leaves.
+/// Random boxes, which make tiles, and random voxels of a few values, around a corner of eight
+/// leaves.
 openvdb::FloatGrid::Ptr randomGrid(std::mt19937& random, bool tiles) {
   std::uniform_int_distribution<int> at(-12, 12);
   std::uniform_int_distribution<int> few(0, 3);
@@ -47,7 +48,7 @@ openvdb::FloatGrid::Ptr randomGrid(std::mt19937& random, bool tiles) {
   return grid;
 }
 
-/// Everything by looking at each voxel of a box that holds both grids.
+/// The expected result, from each voxel of a box that holds both grids.
 struct Expected {
   TopologyDiff topology;
   ValueDiff values;
@@ -132,7 +133,7 @@ void checkOneValue(const typename Grid::ValueType& one, const typename Grid::Val
   CHECK(diff.values->first == VoxelIndex{5, 6, 7});
 }
 
-/// As other programs write: with a random UUID.
+/// Writes a file like other programs do, with a random UUID.
 void writePlainly(const std::filesystem::path& file, const openvdb::GridPtrVec& grids) {
   openvdb::io::File(file.string()).write(grids);
 }

@@ -36,7 +36,7 @@ void checkNear(double estimate, double truth) {
   CHECK(truth <= kEstimateFactor * estimate);
 }
 
-/// Holds an estimate against what becomes of it.
+/// Compares an estimate with the conversion.
 void checkEstimate(const Scene& scene, const ConvertOptions& options) {
   std::vector<std::string> warnings;
   const Estimate guess = estimate(scene, options, warnings);

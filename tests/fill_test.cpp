@@ -17,7 +17,8 @@ using openvdb::MaskTree;
 
 namespace {
 
-/// What no path of inactive voxels from the corner of a box reaches, voxel by voxel.
+/// The voxels that no path of inactive voxels from the corner of a box reaches, by a flood voxel by
+/// voxel.
 MaskTree slowlyFilled(const MaskTree& surface) {
   CoordBBox box;
   surface.evalActiveVoxelBoundingBox(box);
@@ -101,8 +102,8 @@ TEST_CASE("a box is filled with tiles, and leaks through one missing voxel", "[v
 }
 
 TEST_CASE("enclosed regions may be larger than the largest node", "[volume]") {
-  // A shell of active tiles, 4096 thick, around 3 x 1 x 1 empty places of upper nodes, the middle
-  // one of which has no neighbour that is there.
+  // A shell of active tiles, 4096 thick, around 3 x 1 x 1 empty places of upper nodes. The middle
+  // one has no upper node beside it.
   constexpr int kDim = 4096;
   MaskTree tree;
   for (int i = -1; i < 6; ++i)
@@ -111,7 +112,7 @@ TEST_CASE("enclosed regions may be larger than the largest node", "[volume]") {
         if (i >= 0 && i < 5 && j == 0 && k == 0) continue;
         const Coord low(kDim * i, kDim * j, kDim * k);
         tree.sparseFill(CoordBBox(low, low.offsetBy(kDim - 1)), true, true);
-        // Not a tile of the root: one voxel off makes it a node.
+        // One voxel is switched off, so that it is a node and not a tile of the root.
         tree.setValueOff(low.offsetBy(1000));
       }
   const std::int64_t wall = static_cast<std::int64_t>(tree.activeVoxelCount());

@@ -108,7 +108,7 @@ TEST_CASE("distances around extraordinary vertices and faces are as exact", "[le
     double largest = 0;
     int seen = 0;
     for (auto value = grid->cbeginValueOn(); value; ++value) {
-      // Farther than two voxels a sample in place of the surface makes no difference.
+      // Beyond two voxels, the distance to a sample is as good as that to the surface.
       if (std::abs(*value) < 0.1 || ++seen % 53 != 0) continue;
       const double truth = distanceTo(samples, worldOf(*grid, value.getCoord()));
       largest = std::max(largest, std::abs(std::abs(double{*value}) - truth) / 0.05);

@@ -50,7 +50,7 @@ Vec3d normalByDifferences(const Patch& patch, double u, double v) {
   return alongU.cross(alongV).normalized();
 }
 
-/// Distance of a position from where another voxel begins.
+/// Distance of a position from the next voxel.
 double distanceFromTie(const Vec3d& position) {
   const Vec3d shifted = position + Vec3d::Constant(0.5);
   return (shifted.array() - shifted.array().round()).abs().minCoeff();

@@ -166,7 +166,7 @@ TEST_CASE("a cavity keeps facing inward if it does so in the input", "[orient]")
 TEST_CASE("an inside-out cube beside another one is no cavity", "[orient]") {
   const auto out = oriented(test::together(test::cube(), test::insideOut(test::cube()), {5, 0, 0}));
   CHECK(volume(out.mesh) == Approx(16));
-  // Within the bounding box is not yet within: here, in the hole of a torus.
+  // The cube is inside the bounding box, but not inside: it is in the hole of the torus.
   const PolygonMesh ring =
       test::together(test::torusGrid(24, 12), test::insideOut(test::cube()), {0, 0, 0}, 0.1);
   CHECK(oriented(ring).report.cavities == 0);
@@ -215,7 +215,7 @@ TEST_CASE("the two sides of a one-sided surface subdivide to the same points", "
   std::sort(points.begin(), points.end(), [](const Vec3d& p, const Vec3d& q) {
     return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
   });
-  // Every point of the limit is there from either side: no point is far from its nearest in order.
+  // Every point of the limit is there twice, from both sides: sorted, they come in pairs.
   const auto pairs = points.size() / 2;
   std::vector<Vec3d> odd;
   std::vector<Vec3d> even;

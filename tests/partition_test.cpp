@@ -35,7 +35,7 @@ std::vector<Index> submeshOfFaces(const Partition& partition) {
   return submesh;
 }
 
-/// Part of the interior edges whose two faces lie in one submesh.
+/// Share of the interior edges whose two faces lie in one submesh.
 double innerPart(const Adjacency& adjacency, const std::vector<Index>& submesh) {
   double inner = 0;
   double all = 0;

@@ -57,12 +57,13 @@ int largest(const Coord& c) {
   return std::max({std::abs(c.x()), std::abs(c.y()), std::abs(c.z())});
 }
 
-/// How many coordinates have that size.
+/// Number of coordinates with this absolute value.
 int countOf(const Coord& c, int size) {
   return (std::abs(c.x()) == size) + (std::abs(c.y()) == size) + (std::abs(c.z()) == size);
 }
 
-/// Checks that exactly the voxels of a cube around 0 of which isActive says so are active.
+/// Checks that exactly those voxels of a cube around 0 are active for which isActive is true, and
+/// that there are `count` of them.
 template <class IsActive>
 void checkVoxels(const openvdb::MaskGrid& mask, int side, std::uint64_t count,
                  IsActive&& isActive) {
@@ -149,12 +150,12 @@ TEST_CASE("a cube as it is has the voxels of its six faces", "[polygons][golden]
     CHECK(conversion.report.objects[0].polygons.triangles == 12);
     CHECK(conversion.report.objects[0].levels == 0);
   }
-  // The edges are nearer than 1/2 to voxels whose centres they do not reach.
+  // The edges are nearer than 1/2 to voxels, but do not reach their centres.
   checkVoxels(maskOf(convertCube(3.75, Separation::k6)), 6, 6 * 7 * 7,
               [](const Coord& c) { return largest(c) == 4 && countOf(c, 4) == 1; });
   checkVoxels(maskOf(convertCube(3.75, Separation::k26)), 6, 9 * 9 * 9 - 7 * 7 * 7,
               [](const Coord& c) { return largest(c) == 4; });
-  // The faces are those of voxels: both sides are met.
+  // The faces are between voxels: those on both sides are active.
   checkVoxels(
       maskOf(convertCube(3.5, Separation::k6)), 6, 6 * 7 * 7 + 7 * 7 * 7 - 5 * 5 * 5,
       [](const Coord& c) { return largest(c) == 3 || (largest(c) == 4 && countOf(c, 4) == 1); });
@@ -165,7 +166,8 @@ TEST_CASE("a cube as it is has the voxels of its six faces", "[polygons][golden]
 TEST_CASE("concave faces are filled and no farther", "[polygons][golden]") {
   const Separation separation = GENERATE(Separation::k6, Separation::k26);
   const Conversion conversion = convert(sceneOf(slottedBlock()), polygonsAt(1, 0, separation));
-  // Lattice points on the surface of a solid of whole numbers: those with a neighbour outside.
+  // The active voxels are the lattice points on the surface of the solid: those with a neighbour
+  // outside.
   std::uint64_t count = 0;
   const auto isActive = [&](const Coord& c) {
     bool surrounded = true;
@@ -187,7 +189,7 @@ TEST_CASE("a prism of any number of sides has the voxels of its faces as fans",
   const PolygonMesh mesh = test::prism(sides);
   const double voxelSize = 0.07;
   const Conversion conversion = convert(sceneOf(mesh), polygonsAt(voxelSize, 0, separation));
-  // Convex faces, and flat ones also when their corners are snapped: each way to cut them is right.
+  // The faces are convex, and flat also after their corners are snapped, so any fan is right.
   std::vector<Vec3d> points;
   for (const Vec3d& p : mesh.points) points.push_back(p / voxelSize);
   openvdb::MaskTree expected;
@@ -405,7 +407,7 @@ TEST_CASE("vertices lie in the 26-separating voxels of the polygons that fit int
     options.voxelize = Voxelize::kPolygon;
     const Conversion polygons = convert(sceneOf(mesh), options);
     CHECK(polygons.report.objects[0].byPolygons);
-    // A vertex of the one need not be a vertex of the other: both are within 0.1 of the surface.
+    // The two meshes have different vertices; both are within 0.1 of the surface.
     CHECK(farVoxels(maskOf(vertices), maskOf(polygons), 1) == 0);
     CHECK(farVoxels(maskOf(polygons), maskOf(vertices), 1) == 0);
     options.voxelize.reset();
@@ -427,7 +429,7 @@ TEST_CASE("the triangle soup of a surface is closed and the same for any threads
   const TriangleSoup again = onThreads(8, make);
   CHECK(soup.points == again.points);
   CHECK(soup.triangles == again.triangles);
-  // Closed: the area vectors of the triangles add up to nothing.
+  // The triangles are closed: their area vectors add up to 0.
   Vec3d sum = Vec3d::Zero();
   double area = 0;
   for (const auto& [a, b, c] : soup.triangles) {

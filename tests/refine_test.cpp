@@ -155,7 +155,7 @@ TEST_CASE("a strict run names the first thing that a mesh needs", "[pipeline][er
   repeated.addFace(std::vector<Index>{3, 3, 5});
   const PolygonMesh book = test::meshOf({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
                                         {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  PolygonMesh strip = test::moebius(8);  // wound against itself at one edge only
+  PolygonMesh strip = test::moebius(8);  // inconsistently wound at one edge only
   for (Index f = 4; f < 8; ++f) test::flipFace(strip, f);
   const std::vector<std::pair<PolygonMesh, std::string>> cases = {
       {flipped, "flipped face 4, "},
@@ -193,7 +193,7 @@ TEST_CASE("a strict run names the first thing that a mesh needs", "[pipeline][er
 
 TEST_CASE("elements in messages are those of the input, after repair too", "[pipeline]") {
   PolygonMesh mesh = test::cube();
-  mesh.addFace(std::vector<Index>{0, 0, 1});  // dropped, so the strip's faces move up
+  mesh.addFace(std::vector<Index>{0, 0, 1});  // is dropped, so faces of the strip are renumbered
   mesh = test::together(mesh, test::moebius(8), {5, 0, 0});
   const auto warnings = refine(sceneOf({mesh}), 0, {}, {}).warnings;
   REQUIRE(warnings.size() == 1);

@@ -63,7 +63,7 @@ int brightness(const Pixel& pixel) {
 
 namespace {
 
-/// Pixels covered in the row where they are most.
+/// Number of covered pixels in the widest row.
 double widestRow(const Image& image) {
   double widest = 0;
   for (int y = 0; y < image.height; ++y) {

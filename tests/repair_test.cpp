@@ -37,7 +37,7 @@ PolygonMesh oriented(const PolygonMesh& mesh) {
   return orient(mesh, report);
 }
 
-/// The law: oriented, the result has no defects and no interior vertex of two faces.
+/// Checks that the mesh, once oriented, has no defects and no interior vertex of two faces.
 void checkSound(const PolygonMesh& mesh) {
   const PolygonMesh ready = oriented(mesh);
   CHECK(test::faultOf(ready) == "");
@@ -400,8 +400,8 @@ TEST_CASE("mutated meshes end sound, repair is idempotent and repeatable", "[rep
 }
 
 TEST_CASE("adversarial meshes take no more than n log n", "[repair][property]") {
-  // Far from a second of processor time each when linear; minutes when quadratic. The limit only
-  // tells those apart.
+  // Each takes much less than a second of CPU time if the cost is linear, minutes if it is
+  // quadratic. The limit only distinguishes these.
   const Index n = 100000;
   std::vector<PolygonMesh> hard;
   hard.push_back(test::book(static_cast<int>(n)));  // an edge of n faces

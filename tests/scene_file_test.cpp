@@ -101,7 +101,7 @@ TEST_CASE("an object has smoothing options of its own", "[scene]") {
   CHECK(first.interpolatedVertices == std::vector<Index>{2, 0});
   CHECK_FALSE(scene.objects[1].smoothing.boundary.has_value());
 
-  // One choice: whoever names what to interpolate replaces all of it.
+  // These are one choice: an option for either of them replaces both.
   const SmoothingOptions none = {{}, Interpolate::kNothing, {}};
   CHECK(overriding(none, first).boundary == BoundaryRule::kFree);
   CHECK(overriding(none, first).interpolate == Interpolate::kNothing);

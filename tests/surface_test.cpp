@@ -44,7 +44,8 @@ SubdivisionLevel scaled(PolygonMesh mesh, double size) {
   return baseLevel(std::move(mesh), BoundaryRule::kExtend);
 }
 
-/// Voxels that a vertex is within a distance of being rounded to, if it is near more than one.
+/// Collects the voxels near vertices that are almost tied: within a distance of more than one
+/// voxel.
 class NearTies : public SurfaceSink {
  public:
   openvdb::MaskTree voxels;
@@ -67,7 +68,7 @@ class NearTies : public SurfaceSink {
   }
 };
 
-/// Voxels of `a` that `b` lacks; each must be one of `excuses`.
+/// Number of voxels of `a` that are not in `b`. Checks that each of them is in `excuses`.
 std::size_t differences(const openvdb::MaskTree& a, const openvdb::MaskTree& b,
                         const openvdb::MaskTree& excuses) {
   std::size_t count = 0;
@@ -181,7 +182,7 @@ TEST_CASE("progress advances evenly while a surface is made, also with one subme
         std::chrono::nanoseconds(0));
     progress.plan(1);
     progress.beginLast("surface");
-    // At this size most of the vertices lie in patches that are split.
+    // At this size most vertices are in patches that are split.
     onThreads(1, [&] { return mark(scaled(test::cube(), 1500), {localize, 256}, progress); });
     CAPTURE(localizeName(localize), calls, largestStep);
     CHECK(calls > 100);
@@ -235,8 +236,9 @@ TEST_CASE("tasks that run out of memory at the same time end in one refusal",
 }
 
 TEST_CASE("a smooth surface takes few vertices for each voxel", "[pipeline]") {
-  // Squares of half a voxel at the finest, three voxels for two of area (6-separating): less than
-  // 4 / 1.5; patches are as fine as their largest face asks for, which may be twice as fine.
+  // The finest faces are squares of half a voxel: 4 vertices per unit of area. A 6-separating
+  // surface has about 1.5 voxels per unit of area, so there are less than 4 / 1.5 vertices per
+  // voxel. A patch is as fine as its largest face needs, which may be twice as fine as others.
   for (const double size : {40.0, 61.0, 83.0}) {
     const Marked marked = mark(scaled(test::torusGrid(32, 16), size), {});
     const double vertices =

@@ -42,7 +42,7 @@ TEST_CASE("parameters get the given values", "[texture]") {
 TEST_CASE("screen colours become light", "[texture][golden]") {
   CHECK(linearFromScreen(0) == 0);
   CHECK(linearFromScreen(1) == 1);
-  // Half way on the screen is about a fifth of the light; the two pieces of the curve meet.
+  // The value 0.5 is about a fifth of the light. The two pieces of the curve meet at 0.04045.
   CHECK(linearFromScreen(0.5) == Approx(0.21404).epsilon(1e-4));
   CHECK(linearFromScreen(0.0404499) == Approx(linearFromScreen(0.0404501)).epsilon(1e-4));
   const TextureSpec texture = parseTexture("checker:colors=#ff0080/#000000");

@@ -42,7 +42,7 @@ TEST_CASE("noise is 0 at the lattice and within -1 and 1 between", "[texture][pr
     sum += value;
     squares += value * value;
   }
-  // No preferred sign, and it does vary: standard errors are below 0.003.
+  // The mean is 0, the variance is not; standard errors are below 0.003.
   CHECK(std::abs(sum / kPoints) < 0.015);
   CHECK(squares / kPoints > 0.03);
 }
@@ -68,7 +68,7 @@ TEST_CASE("seeds and cells make different noise", "[texture]") {
   std::set<double> values;
   for (std::uint32_t seed = 0; seed < 8; ++seed)
     for (int cell = 0; cell < 8; ++cell) values.insert(gradientNoise(p + Vec3d(cell, 0, 0), seed));
-  CHECK(values.size() > 40);  // 64 draws of some hundreds of combinations of gradients
+  CHECK(values.size() > 40);  // of 64, from some hundreds of combinations of gradients
 }
 
 TEST_CASE("octaves add detail of half the size and half the height", "[texture]") {

@@ -27,7 +27,7 @@ Vec3d vertexOf(const Patch& patch, std::int64_t i, std::int64_t j, std::int64_t 
   return PatchWeights(j, n)(row[0], row[1], row[2]);
 }
 
-/// The vertices around the strip between rows i and j.
+/// The vertices of the walk around the strip between rows i and j.
 std::vector<Vec3d> walkAround(const Patch& patch, std::int64_t i, std::int64_t j, std::int64_t n) {
   std::vector<Vec3d> walk;
   for (std::int64_t v = 0; v < n; ++v) walk.push_back(vertexOf(patch, i, v, n));
@@ -37,11 +37,11 @@ std::vector<Vec3d> walkAround(const Patch& patch, std::int64_t i, std::int64_t j
   return walk;
 }
 
-/// The longest side (L-inf) of the triangles that fill a polygon, at its least over all ways to cut
-/// it up, by trying them.
+/// Length (L-inf) of the longest side of the triangles that fill a polygon, for the best way to cut
+/// it. Tries all ways, by dynamic programming.
 double leastLongestSide(const std::vector<Vec3d>& polygon) {
   const std::size_t n = polygon.size();
-  std::vector<double> best(n * n, 0.0);  // of the part from i to j, cut off along that side
+  std::vector<double> best(n * n, 0.0);  // for the part from i to j, with the side from j to i
   const auto side = [&](std::size_t i, std::size_t j) {
     return (polygon[i] - polygon[j]).cwiseAbs().maxCoeff();
   };
@@ -57,7 +57,7 @@ double leastLongestSide(const std::vector<Vec3d>& polygon) {
   return best[n - 1];
 }
 
-/// Patches around a line or a slightly bent curve, up to so wide in voxels.
+/// Random patches around a line or a slightly bent curve. Lengths and widths in voxels.
 struct RandomPatches {
   std::mt19937 random;
   double uniform(double low, double high) {
@@ -71,13 +71,13 @@ struct RandomPatches {
     const Vec3d across = uniform(0, width) * direction();
     return make([&](double u, double v) { return Vec3d(u * across + v * along); }, 0.01 * length);
   }
-  /// Rows and columns go the same way, nearly.
+  /// Rows and columns run nearly the same way.
   Patch sheared(double length, double width) {
     const Vec3d along = length * direction();
     const Vec3d across = uniform(0.2, 1) * along + uniform(0, width) * direction();
     return make([&](double u, double v) { return Vec3d(u * across + v * along); }, 0.01 * length);
   }
-  /// Beside a long thin triangle: along it out, and back.
+  /// Beside a long thin triangle: out along it, and back.
   Patch folded(double length, double width) {
     const Vec3d along = length * direction();
     const Vec3d bend = uniform(0, 2 * width) * direction();
@@ -89,7 +89,7 @@ struct RandomPatches {
         0.002 * length);
   }
 
-  /// Along a curve at places that are any quadratic function of u and v.
+  /// Along a curve, with parameters that are a random quadratic function of u and v.
   Patch along(double length, double width) {
     const Vec3d line = length * direction();
     const Vec3d turn = uniform(0, 0.5) * length * direction();
@@ -102,7 +102,7 @@ struct RandomPatches {
         },
         uniform(0, width));
   }
-  /// Bent from row to row, or along them, or both.
+  /// Bent from row to row, along the rows, or both.
   Patch bent(double length, double width) {
     const Vec3d along = length * direction();
     const Vec3d turnV = uniform(0, 1) * length * direction();
@@ -120,7 +120,7 @@ struct RandomPatches {
     const Vec3d along = length * direction();
     return make([&](double, double) { return Vec3d(uniform(-1, 1) * along); }, width);
   }
-  /// One of all these, of length 1.
+  /// One of these kinds, of length 1.
   Patch any(int which, double width) {
     switch (which) {
       case 0:
@@ -177,7 +177,7 @@ openvdb::MaskGrid marked(const SubdivisionLevel& base, SurfaceReport& report) {
   return mask;
 }
 
-/// Whether a path of inactive voxels, face to face, leads there from outside the box.
+/// Whether a path of inactive voxels, face to face, leads from outside the box to `there`.
 bool isReachedFromOutside(const openvdb::MaskGrid& mask, const openvdb::Coord& there) {
   openvdb::CoordBBox box = mask.evalActiveVoxelBoundingBox();
   box.expand(1);
@@ -367,7 +367,7 @@ TEST_CASE("a patch that turns back in part has fewer vertices if split, each par
     if (parts == 1) {
       CHECK(vertices == thin->vertices());
     } else {
-      CHECK(parts % 3 == 1);  // each split puts four in the place of one
+      CHECK(parts % 3 == 1);  // each split replaces one part by four
       ++split;
     }
   }

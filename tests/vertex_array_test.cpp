@@ -19,7 +19,7 @@ using namespace vox;
 
 namespace {
 
-/// Where the limit point of vertex (i, j) of n x m descendants is.
+/// The limit normal at vertex (i, j) of n x m descendants.
 Vec3d limitNormal(const Patch& patch, std::int64_t i, std::int64_t n, std::int64_t j,
                   std::int64_t m) {
   return LimitNormals(patch, SplinePlace::ofVertex(i, n)).at(SplinePlace::ofVertex(j, m));
@@ -69,7 +69,7 @@ std::vector<PolygonMesh> closedShapes() {
           test::prism(5), test::dodecahedron(), test::torusGrid(6, 5)};
 }
 
-/// Points and normals of the faces of a mesh, the nearest of which can be asked for.
+/// Centroids and normals of the faces of a mesh, with a search for the nearest ones.
 class FaceNormals {
  public:
   explicit FaceNormals(const PolygonMesh& mesh) {
@@ -88,7 +88,7 @@ class FaceNormals {
       return (a.centroid - p).squaredNorm() < (b.centroid - p).squaredNorm();
     });
   }
-  /// The nearest ones, the first of all in front.
+  /// The nearest faces, sorted by distance.
   std::vector<Face> nearest(const Vec3d& p, std::size_t count) const {
     std::vector<Face> near(count);
     std::partial_sort_copy(faces_.begin(), faces_.end(), near.begin(), near.end(),
@@ -153,7 +153,7 @@ TEST_CASE("normals agree with those of faces six levels deeper", "[subdivide][no
       const auto around = faces.nearest(limit, 9);
       CHECK((around[0].centroid - limit).norm() < 1e-12);
       CHECK(degrees(array.normalAt(0, 0), around[0].normal) < 1e-8);
-      // Neighbours turn by curvature times their distance.
+      // Normals of neighbours differ by about curvature times distance.
       for (const auto& face : around) CHECK(degrees(array.normalAt(0, 0), face.normal) < 3);
     });
   }
@@ -213,7 +213,7 @@ TEST_CASE("normals on a boundary are the limit of normals in the rows beside it"
           const Vec3d near = acrossR ? deeper.normalAt(far, 0) + deeper.normalAt(far - 1, 0)
                                      : deeper.normalAt(0, far) + deeper.normalAt(0, far - 1);
           if (i == 0 && !vertex.regular && (!vertex.quadVFace || vertex.corner)) {
-            // Beside a block of one point: as in its plane.
+            // Beside a block of one point, the normal is that of the point.
             CHECK((normals[0] - array.normalAt(0, 0)).norm() < 1e-9);
             continue;
           }
@@ -237,7 +237,7 @@ TEST_CASE("a flat sheet has one normal, missing faces or not", "[subdivide][norm
       forVertices(prepared(mesh, rule), [&](const LevelOneVertex& vertex, const auto&, auto&) {
         for (const int k : {0, 1, 2}) {
           const VertexArray array = arrayOf(vertex, k);
-          // Of an array without all its faces, what is next to them.
+          // Some faces are missing: only the corner next to F is checked.
           const Vec3d corner = array.normalAt(array.sizeU() - 1, array.sizeV() - 1);
           CHECK((corner - normal).norm() < 1e-12);
           if (!vertex.whole()) continue;

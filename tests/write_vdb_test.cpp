@@ -26,7 +26,7 @@ std::vector<openvdb::GridBase::Ptr> someGrids(int value) {
   return {density, mask};
 }
 
-/// More leaves than are written at a time, and values inside and outside that are not active.
+/// Grids with more leaves than are written at a time, and with values of inactive voxels.
 std::vector<openvdb::GridBase::Ptr> gridsOfManyLeaves() {
   constexpr int kSide = 18;  // leaves
   const openvdb::Vec3s flat(0, 0, 1);
@@ -34,7 +34,7 @@ std::vector<openvdb::GridBase::Ptr> gridsOfManyLeaves() {
   auto distance = openvdb::FloatGrid::create(3);
   auto half = openvdb::FloatGrid::create(0);
   auto normal = openvdb::Vec3SGrid::create(openvdb::Vec3s(0, 0, 0));
-  auto id = openvdb::Int32Grid::create(-1);  // of a type that is nothing special
+  auto id = openvdb::Int32Grid::create(-1);  // a type without special treatment
   for (int i = 0; i < kSide * kSide * kSide; ++i) {
     const openvdb::Coord at(8 * (i / kSide / kSide) + i % 8, 8 * (i / kSide % kSide) - 50,
                             8 * (i % kSide));
@@ -125,12 +125,12 @@ TEST_CASE("memory that runs out while leaves are written is an error", "[io][err
   auto full = openvdb::Vec3SGrid::create();
   full->tree().denseFill({{0, 0, 0}, {55, 39, 39}}, {1, 2, 3});
   const std::vector<openvdb::GridBase::Ptr> grid = {full};
-  constexpr std::size_t kLarge = 8192;  // more than a leaf: buffers for many of them
+  constexpr std::size_t kLarge = 8192;  // larger than a leaf: only buffers for many leaves
   bool failed = true;
   int failures = 0;
   for (int n = 0; failed; ++n) {
     std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
-    stream.str(std::string(1 << 22, ' '));  // needs no more
+    stream.str(std::string(1 << 22, ' '));  // so that the stream itself does not allocate
     bool threw = false;
     {
       const test::FailingAllocation allocation(n, kLarge);
