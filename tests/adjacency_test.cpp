@@ -12,7 +12,7 @@ using namespace vox;
 
 namespace {
 
-/// OpenMesh's half-edge structure of the same mesh: an independent account of who is next to whom.
+/// OpenMesh's half-edge structure of the same mesh, an independent implementation of adjacency.
 OpenMesh::PolyMesh_ArrayKernelT<> halfEdges(const PolygonMesh& mesh) {
   OpenMesh::PolyMesh_ArrayKernelT<> out;
   for (Index v = 0; v < mesh.pointCount(); ++v) out.add_vertex({0, 0, 0});

@@ -38,7 +38,7 @@ TEST_CASE("without commit the old file stays and nothing else is left", "[io]") 
   CHECK(folder.fileCount() == 1);
 }
 
-TEST_CASE("what a signal handler does leaves nothing behind", "[io]") {
+TEST_CASE("a signal handler can remove partial files", "[io]") {
   const test::TemporaryFolder folder;
   AtomicFile file(folder / "out", false);
   file.stream() << "half";

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The runner of whole processes measures what it should and names what goes wrong.
+# vox_bench_pair measures whole processes, and names errors.
 # Usage: bench_pair.sh VOX_BENCH_PAIR
 set -euo pipefail
 pair=$(realpath "$1")
@@ -70,7 +70,7 @@ for mistake in '' 'true' 'true true --suite issue' '--suite none' '--scaling cub
   [ -s stderr ]
 done
 
-# Interrupted while a program runs: it goes, and so does the folder of temporary files.
+# Interrupted while a program runs: the program is killed and the temporary folder removed.
 mkdir temporary
 TMPDIR=$folder/temporary "$pair" -q "sh -c 'echo \$\$ >child; exec sleep 50'" true &
 running=$!

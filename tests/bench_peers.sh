@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The programs vox is measured against make the same voxels: each other's exactly, and as many as
-# vox does up to the depth it chooses. Scaling is measured along.
+# The programs with which vox is compared make the same voxels: exactly the same as each other, and
+# as many as vox up to the depth that it chooses. Measures the scaling, too.
 # Usage: bench_peers.sh VOX BENCH_FOLDER
 set -euo pipefail
 vox=$(realpath "$1")
@@ -36,7 +36,7 @@ assert grids[0]["voxel_size"] == grids[1]["voxel_size"]
 PYTHON
 done
 
-# A contest names what is absent, and has numbers for the rest.
+# A contest names absent programs and has numbers for the others.
 mkdir plots
 "$bench/vox_bench_pair" -q --compare torus --dims 48,32 --runs 1 --vox "$vox" --json contest.json \
   --plots plots >contest.md

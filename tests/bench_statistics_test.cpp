@@ -1,4 +1,4 @@
-// What the benchmarks make of their measurements.
+// Statistics of the benchmarks.
 
 #include "apps/bench/statistics.h"
 
@@ -36,14 +36,14 @@ TEST_CASE("a power law gives back its exponent", "[bench]") {
     y.push_back(0.02 * std::pow(x.back(), exponent));
   }
   CHECK(fitExponent(x, y).value() == Approx(exponent));
-  // Where the law is negligible against the floor the point must not count.
+  // A point at which the law is negligible against the floor must not count.
   Values raised = y;
   for (double& value : raised) value += y[2];
   CHECK(fitExponentAbove(y[2], x, raised).value() == Approx(exponent));
   CHECK(fitExponent(x, raised).value() < exponent);
 }
 
-TEST_CASE("no exponent is made up from too little", "[bench]") {
+TEST_CASE("too few points give no exponent", "[bench]") {
   CHECK_FALSE(fitExponent(Values{}, Values{}));
   CHECK_FALSE(fitExponent(Values{2}, Values{3}));
   CHECK_FALSE(fitExponent(Values{2, 2}, Values{3, 4}));

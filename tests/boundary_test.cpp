@@ -35,8 +35,8 @@ std::vector<std::vector<Vec3d>> loopPoints(const SubdivisionLevel& level) {
   return loops;
 }
 
-/// Largest distance of the edge midpoints of a boundary loop of level k from the spline at their
-/// parameters, for the best start.
+/// Largest distance between the edge midpoints of a boundary loop of level k and the points of the
+/// spline at the same parameters, for the best start of the loop.
 double distanceToSpline(const std::vector<Vec3d>& loop, const std::vector<Vec3d>& controls) {
   const std::size_t n = loop.size();
   const double step = static_cast<double>(controls.size()) / static_cast<double>(n);
@@ -163,8 +163,8 @@ TEST_CASE("a strip face is subdivided as half of a 2m-gon by weights that are no
     for (const double sum : sums) CHECK(sum == Approx(1).margin(1e-14));
     if (inner == 1) continue;
 
-    // The 2m-gon: the inner points and their reflections in c + r_i d, the points of the boundary
-    // line that the rule assigns to them. Its image is that of plain Doo-Sabin.
+    // The 2m-gon consists of the inner points and their reflections in the points c + r_i d of the
+    // boundary line. Plain Doo-Sabin of it must give the same images.
     level.mesh = strip;
     PolygonMesh whole = test::regularPolygon(2 * inner);
     const auto m = static_cast<std::size_t>(inner);
@@ -237,8 +237,8 @@ TEST_CASE("an extended tube is plain Doo-Sabin of the tube with reflected rows",
 
 TEST_CASE("an extended sheet is the biquadratic B-spline of the grid with reflected rows",
           "[subdivide][boundary][property]") {
-  // x and y of the sheet are its parameters, since B-splines reproduce linear functions. Corners
-  // are rounded: the spline of the loop, not that of the rows, so their half cells are left out.
+  // x and y of the sheet are its parameters, since B-splines reproduce linear functions. The half
+  // cells at the corners are left out: corners are rounded, by the spline of the loop.
   const int columns = GENERATE(3, 5);
   const int rows = GENERATE(2, 4);
   const PolygonMesh mesh = test::sheet(columns, rows);
@@ -300,7 +300,7 @@ TEST_CASE("an extended sheet is the biquadratic B-spline of the grid with reflec
   }
 }
 
-TEST_CASE("closed meshes know no boundary rule", "[subdivide][boundary]") {
+TEST_CASE("the boundary rule does not change closed meshes", "[subdivide][boundary]") {
   for (const auto& shape : test::shapes()) {
     if (!shape.closed) continue;
     CAPTURE(shape.name);
@@ -312,7 +312,7 @@ TEST_CASE("closed meshes know no boundary rule", "[subdivide][boundary]") {
   }
 }
 
-TEST_CASE("fans that touch in a boundary vertex part, each with its own boundary",
+TEST_CASE("fans that touch in a boundary vertex are separated, each with its own boundary",
           "[subdivide][boundary]") {
   SubdivisionLevel level = subdivide(baseLevel(openBowTie()), 1);
   CHECK(level.adjacency.twin == buildAdjacency(level.mesh).twin);

@@ -20,8 +20,8 @@ std::vector<Vec3d> cloud() {
   return points;
 }
 
-/// Where a camera sees a point: x and y from 0 to 1 across the picture, found by search, since a
-/// camera only says which line of sight goes through which point of the picture.
+/// Position of a point in the picture of a camera: x and y from 0 to 1. It is found by search,
+/// because a camera only gives the line of sight through a position of the picture.
 Vec3d whereSeen(const Camera& camera, const Vec3d& point) {
   const Sight middle = camera.through(0.5, 0.5);
   const Vec3d toPoint = point - middle.origin;

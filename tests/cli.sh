@@ -243,7 +243,7 @@ for separating in 6 26; do
 done
 expect 0 '' convert "$scenes/cube.obj" -o polygons.vdb --dim 8 --until levels=1 --verbose --force
 grep -q ', 44 triangles after 1 levels' stderr || fail "triangles: $(cat stderr)"
-# The command line before the object, the object before [convert].
+# The command line wins over the object, the object over [convert].
 cube="mesh = '$scenes/cube.obj'"
 printf '[convert]\ndim = 8\nuntil = { levels = 1 }\n[[object]]\nuntil = { levels = 0 }\n%s\n' "$cube" >until.toml
 expect 0 ': 386 active voxels' convert until.toml -o until.vdb
@@ -298,7 +298,7 @@ texture_error "[0-9]+: texture marble: scale must be a number above 0, not '-1'"
 texture_error '[0-9]+: texture marble has no .size.; it has scale' '{ kind = "marble", size = 1 }'
 texture_error '[0-9]+: .*colors must be 2 to 16' '{ kind = "marble", colors = [[1, 0, 0]] }'
 texture_error '[0-9]+: colors must be a number, a text or a list' '{ kind = "marble", colors = [1, [], {}] }'
-# Volumes: the command line goes before the scene.
+# Volumes: the command line wins over the scene.
 printf '[convert]\nfill = "solid"\ngain = 3\n[[object]]\nname = "block"\n%s\n' "$cube" >solid.toml
 expect 0 'active voxels' convert solid.toml -o solid.vdb --dim 64 --report solid.json
 expect 0 'active voxels' convert solid.toml -o shell.vdb --dim 64 --fill surface
@@ -364,7 +364,7 @@ grep -qE '^grid density: about 2[0-9]{2}000 voxels' stdout || fail "dry run: $(c
 expect 4 'the grids need about .* TiB of memory .*use --dim [0-9]+' convert "$scenes/cube.toml" --dry-run --dim 100000 --max-memory 1G
 expect 2 'output is required' convert good.obj
 
-# Faults of a mesh are repaired, and told.
+# Faults of a mesh are repaired and reported.
 expect 0 '' convert winding.obj -o winding.vdb --dim 8
 grep -q 'warning: winding: dropped 1 duplicate face' stderr || fail "no word of the repair: $(cat stderr)"
 printf '%sf 1 1 2\n' "$triangle" >nothing.obj
@@ -503,7 +503,7 @@ expect 0 '' info --json $'caf\xe9.obj'
 ) || fail "a file size limit: $(cat stderr)"
 [ ! -e limited.vdb ] || fail "a file size limit leaves a file"
 
-# How the surface is cut into submeshes never shows.
+# The partition into submeshes does not change the voxels.
 for submeshes in '--localize before' '--localize during' '--localize off' '--submesh-faces 1' '--submesh-faces 7'; do
   # shellcheck disable=SC2086
   expect 0 'active voxels' convert "$scenes/toy_jack.toml" -o cut.vdb --dim 64 --grids density,mask --force $submeshes
@@ -560,8 +560,8 @@ grep -qE 'jack: 266 faces, 1 submeshes, [0-9]+ vertices \(by level .*\), [0-9]+ 
 grep -q 'seconds on .* read .* prepare .* surface .* grids .* write' stderr || fail "verbose: no times"
 grep -q 'memory: peak .*, density ' stderr || fail "verbose: no memory"
 
-# The bar: on a terminal only, one line that never goes back and is erased, not with --quiet. And
-# signals: the first cancels, in whatever stage, and leaves the target as it was.
+# The progress bar: only on a terminal and without --quiet; one line that never goes back and is
+# erased. Signals: the first one cancels in any stage and leaves the target as it was.
 python3 - "$vox" "$scenes" <<'PY' || fail "the progress bar"
 import os, pty, re, signal, sys
 vox, scenes = sys.argv[1:]

@@ -103,7 +103,7 @@ TEST_CASE("where objects share voxels, the colour of the later one stays", "[col
     CHECK(*voxel == (later ? openvdb::Vec3f(0, 0, 1) : openvdb::Vec3f(1, 0, 0)));
   }
   CHECK(shared > 10);
-  // The voxels and their counts are those of a conversion that does not ask for colours.
+  // The voxels and their counts are those of a conversion without colours.
   ConvertOptions plain = colorAt(0.1);
   plain.grids = std::vector{GridKind::kMask};
   const Conversion without = convert(scene, plain);
@@ -114,7 +114,7 @@ TEST_CASE("where objects share voxels, the colour of the later one stays", "[col
     CHECK(without.report.objects[i].activeVoxels == both.report.objects[i].activeVoxels);
 }
 
-TEST_CASE("a texture that is asked for comes before the scene's and brings its grid", "[color]") {
+TEST_CASE("a texture among the options wins over the scene's and adds the colour grid", "[color]") {
   ConvertOptions options;
   options.dim = 16;
   options.texture = parseTexture("checker:colors=0:1:0/0:1:0");

@@ -27,7 +27,7 @@ using openvdb::Coord;
 
 namespace {
 
-/// Colours that are an affine function of the place: 0 to 1 over the box of the mesh.
+/// The mesh with colours that are an affine function of the position: 0 to 1 over its box.
 PolygonMesh coloredByPlace(PolygonMesh mesh) {
   const Box box = usedBox(mesh);
   const double side = box.longestSide();
@@ -60,7 +60,7 @@ class Counter : public ColoredSink {
   std::int64_t count = 0;
 };
 
-/// Vertices in the order of their coordinates.
+/// Collects vertices in the order of their coordinates.
 class Collector : public ColoredSink {
  public:
   void point(const Vec3d& position, const Vec3d& color) override {
@@ -94,9 +94,10 @@ class Collector : public ColoredSink {
 
 }  // namespace
 
-TEST_CASE("colours that follow the place still do on the smooth surface", "[color][property]") {
-  // Doo-Sabin refines colours as it refines positions, so what is affine stays so, everywhere. A
-  // voxel's mean is that of places at most half a voxel from its centre along each axis.
+TEST_CASE("colours that are linear in position stay so on the smooth surface",
+          "[color][property]") {
+  // Doo-Sabin refines colours with the weights of positions, so an affine function stays affine.
+  // The mean of a voxel is over positions at most half a voxel from its centre along each axis.
   std::vector<test::Shape> shapes = test::shapes();
   shapes.insert(shapes.end(), test::openShapes().begin(), test::openShapes().end());
   constexpr int kDim = 21;
@@ -121,9 +122,9 @@ TEST_CASE("colours that follow the place still do on the smooth surface", "[colo
           far += off > 0.501;
           furthest = std::max(furthest, off);
         }
-        // Voxels that no sample falls into have the mean of their neighbours': few along a
-        // boundary, where vertex conversion goes deeper than it must; more that polygons only
-        // graze.
+        // Voxels without a sample have the mean of their neighbours' means. There are few of them
+        // along a boundary, where vertex conversion goes deeper than it must, and more where
+        // polygons only graze voxels.
         const bool sampled = std::string(until) == "voxel";
         CHECK(furthest < 1.6);
         CHECK(far <= test::colorOf(conversion).activeVoxelCount() / (sampled ? 10 : 5));
@@ -159,7 +160,8 @@ TEST_CASE("the colours of points come before those of faces", "[color]") {
     CHECK(*voxel == openvdb::Vec3f(0, 1, 0));
 }
 
-TEST_CASE("vertices and colours have the same bits however the mesh is cut", "[color][property]") {
+TEST_CASE("vertices and colours have the same bits for any partition of the mesh",
+          "[color][property]") {
   std::vector<test::Shape> shapes = test::shapes();
   shapes.insert(shapes.end(), test::openShapes().begin(), test::openShapes().end());
   for (const auto& shape : shapes)
@@ -179,8 +181,9 @@ TEST_CASE("vertices and colours have the same bits however the mesh is cut", "[c
     }
 }
 
-TEST_CASE("around a face of many sides samples reach the voxels with the colours of their place",
-          "[color][property]") {
+TEST_CASE(
+    "around a face of many sides, samples reach all voxels with the colours of their positions",
+    "[color][property]") {
   for (const PolygonMesh& shape : {test::prism(300), test::pyramid(300)}) {
     const PolygonMesh mesh = coloredByPlace(squashed(shape, 40));
     const Box box = usedBox(mesh);
@@ -209,8 +212,9 @@ TEST_CASE("around a face of many sides samples reach the voxels with the colours
   }
 }
 
-TEST_CASE("where rows and columns run the same way samples are no more than lie along them",
-          "[color][property]") {
+TEST_CASE(
+    "if rows and columns run the same way, samples grow with their length, not with its square",
+    "[color][property]") {
   const auto samplesAt = [](double scale) {
     PolygonMesh mesh = coloredByPlace(test::sheet(6, 6));
     for (Vec3d& p : mesh.points) p = scale * Vec3d(p.x() + p.y(), 0.01 * p.y(), 0.01 * p.z());
@@ -218,7 +222,7 @@ TEST_CASE("where rows and columns run the same way samples are no more than lie 
     ColoredSurface(baseLevel(mesh), cornerColors(mesh)).emit(numbered(mesh.faceCount()), samples);
     return static_cast<double>(samples.count);
   };
-  CHECK(samplesAt(40) < 2.5 * samplesAt(20));  // as in an array, they would be 4 times as many
+  CHECK(samplesAt(40) < 2.5 * samplesAt(20));  // full arrays would have 4 times as many
 }
 
 TEST_CASE("colours around a face of thousands of edges stay within the memory", "[color][error]") {
@@ -256,7 +260,7 @@ TEST_CASE("a voxel has the mean of its samples, or that of its neighbours", "[co
   writer.add({1000, 5, 0}, Vec3d(0, 1, 0));
   means.fillGaps();
   const Vec3d mean(2.0 / 3, 0, 0.25);
-  constexpr double kRounding = 3.0 / (1 << 30);  // once for each sample, and once a neighbour
+  constexpr double kRounding = 3.0 / (1 << 30);  // one for each sample and each neighbour
   CHECK((*means.meanOf({7, 0, 0}) - mean).norm() < kRounding);
   CHECK((*means.meanOf({8, 0, 0}) - mean).norm() < kRounding);
   CHECK((*means.meanOf({9, 1, 0}) - mean).norm() < kRounding);

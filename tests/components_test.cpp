@@ -23,7 +23,8 @@ bool sameComponents(const std::vector<Component>& a, const std::vector<Component
   });
 }
 
-/// Floods a box voxel by voxel; of the inactive components, those that do not reach its rim.
+/// The components in a box, by a flood voxel by voxel. Inactive components that reach the rim of
+/// the box are left out.
 std::vector<Component> floodedComponents(const MaskTree& tree, bool active) {
   const CoordBBox box = CoordBBox::createCube(Coord(-30), 60);
   std::set<Coord> left;

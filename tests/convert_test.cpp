@@ -32,7 +32,7 @@ ConvertOptions maskAt(int dim) {
   return options;
 }
 
-/// The mesh whose vertices were converted, in voxels.
+/// The mesh whose vertices were converted, in index space.
 PolygonMesh refinedIndex(const PolygonMesh& mesh, const Conversion& conversion) {
   PolygonMesh refined = subdivide(baseLevel(mesh), conversion.report.objects[0].levels).mesh;
   for (Vec3d& p : refined.points) p /= conversion.report.voxelSize;
@@ -79,7 +79,7 @@ TEST_CASE("no path of inactive voxels joins the sides of a closed surface",
 }
 
 TEST_CASE("no path of inactive voxels joins the sides of a long thin bar", "[pipeline][property]") {
-  // Its patches go out as rows: see that these still separate, whatever the angle.
+  // Its patches are emitted as rows, which must separate at any angle.
   for (const double angle : {0.0, 0.3, 0.7853981633974483}) {
     CAPTURE(angle);
     PolygonMesh bar = test::cube();
@@ -87,7 +87,7 @@ TEST_CASE("no path of inactive voxels joins the sides of a long thin bar", "[pip
       p = Vec3d(12 * p.x() * std::cos(angle) - p.y() * std::sin(angle),
                 12 * p.x() * std::sin(angle) + p.y() * std::cos(angle), p.z());
     const Conversion conversion = convert(test::oneObject(bar), maskAt(45));
-    constexpr int kLevels = 4;  // the surface, near enough: within 0.1 voxels
+    constexpr int kLevels = 4;  // within 0.1 voxels of the surface
     PolygonMesh surface = subdivide(baseLevel(bar), kLevels).mesh;
     for (Vec3d& p : surface.points) p /= conversion.report.voxelSize;
     const test::Sides sides = test::sidesOf(surface, test::maskOf(conversion));
@@ -97,7 +97,7 @@ TEST_CASE("no path of inactive voxels joins the sides of a long thin bar", "[pip
   }
 }
 
-TEST_CASE("of a needle few vertices are made, and none of it is lost", "[pipeline]") {
+TEST_CASE("a needle needs few vertices and loses no voxels", "[pipeline]") {
   const PolygonMesh needle = test::meshOf({{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}, {0.5, 0.3, 4000}},
                                           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
   ConvertOptions options;
@@ -131,7 +131,7 @@ TEST_CASE("an open sheet has no hole from one side to the other", "[pipeline][pr
   ConvertOptions options = maskAt(40);
   options.smoothing.boundary = rule;
   const Conversion conversion = convert(test::oneObject(test::sheet(5, 4)), options);
-  // Plain Doo-Sabin ends half a face inside the boundary; look at the columns within.
+  // Plain Doo-Sabin ends half a face inside the boundary; only columns within are checked.
   const double unit = 1 / conversion.report.voxelSize;
   const auto at = [&](double x) { return static_cast<int>(x * unit); };
   const openvdb::CoordBBox box(at(1), at(1), at(-1), at(4), at(3), at(1));
@@ -396,7 +396,7 @@ TEST_CASE("an extended sheet reaches its boundary, and its corners if interpolat
   CHECK(isOn(40, 40));
 }
 
-TEST_CASE("contradictory arrays are refused, not followed", "[pipeline][error]") {
+TEST_CASE("contradictory arrays are refused", "[pipeline][error]") {
   PolygonMesh mesh = test::cube();
   mesh.faceVertices[5] = 50000000;
   CHECK_THROWS_AS(convert(test::oneObject(mesh), maskAt(8)), MeshError);
@@ -428,7 +428,7 @@ TEST_CASE("a Moebius strip is converted with a warning", "[pipeline]") {
   CHECK_THAT(conversion.report.warnings[0], Contains("one-sided"));
 }
 
-TEST_CASE("what repair did is told in one line", "[pipeline]") {
+TEST_CASE("a conversion reports repairs in one line", "[pipeline]") {
   const PolygonMesh cube = test::cube();
   const Conversion conversion = convert(test::oneObject(test::unwelded(cube)), maskAt(30));
   REQUIRE(conversion.report.warnings.size() == 1);

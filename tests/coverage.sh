@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prints how many lines of libvox the tests run, file by file, and what they leave out.
+# Prints, file by file, how many lines of libvox the tests run and which they leave out.
 # Usage: coverage.sh SOURCE BUILD [LEAST]  after the tests of the coverage preset have run;
 # exit code 1 when fewer than LEAST percent (90) are covered.
 set -euo pipefail

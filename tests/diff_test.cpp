@@ -29,7 +29,8 @@ typename Grid::Ptr gridNamed(const std::string& name,
   return grid;
 }
 
-/// Boxes, so that there are tiles, and voxels with a few values, around the corner of eight leaves.
+/// Random boxes, which make tiles, and random voxels of a few values, around a corner of eight
+/// leaves.
 openvdb::FloatGrid::Ptr randomGrid(std::mt19937& random, bool tiles) {
   std::uniform_int_distribution<int> at(-12, 12);
   std::uniform_int_distribution<int> few(0, 3);
@@ -47,7 +48,7 @@ openvdb::FloatGrid::Ptr randomGrid(std::mt19937& random, bool tiles) {
   return grid;
 }
 
-/// Everything by looking at each voxel of a box that holds both grids.
+/// The expected result, from each voxel of a box that holds both grids.
 struct Expected {
   TopologyDiff topology;
   ValueDiff values;
@@ -132,14 +133,15 @@ void checkOneValue(const typename Grid::ValueType& one, const typename Grid::Val
   CHECK(diff.values->first == VoxelIndex{5, 6, 7});
 }
 
-/// As other programs write: with a random UUID.
+/// Writes a file like other programs do, with a random UUID.
 void writePlainly(const std::filesystem::path& file, const openvdb::GridPtrVec& grids) {
   openvdb::io::File(file.string()).write(grids);
 }
 
 }  // namespace
 
-TEST_CASE("a comparison finds what a look at every voxel finds", "[inspect][diff][property]") {
+TEST_CASE("a comparison finds the same as a comparison voxel by voxel",
+          "[inspect][diff][property]") {
   std::mt19937 random(1);
   for (int i = 0; i < 60; ++i) {
     CAPTURE(i);
@@ -162,7 +164,7 @@ TEST_CASE("a comparison finds what a look at every voxel finds", "[inspect][diff
   }
 }
 
-TEST_CASE("tiles are the voxels they stand for", "[inspect][diff]") {
+TEST_CASE("a tile counts as its voxels", "[inspect][diff]") {
   auto tile = gridNamed<openvdb::FloatGrid>("g");
   tile->fill(CoordBBox::createCube({0, 0, 0}, 128), 2.0F, true);
   REQUIRE(tile->tree().leafCount() == 0);
@@ -301,7 +303,7 @@ TEST_CASE("files are compared by the names of their grids, not by UUID", "[inspe
   CHECK_THROWS_WITH(diffVdb(folder / "c.vdb", folder / "a.vdb", options), Contains("'fog'"));
 }
 
-TEST_CASE("half precision is a matter of the file", "[inspect][diff]") {
+TEST_CASE("values of half precision are rounded in the file only", "[inspect][diff]") {
   const test::TemporaryFolder folder;
   auto grid = gridNamed<openvdb::FloatGrid>("density");
   grid->tree().setValueOn({1, 2, 3}, 1.0F / 3);

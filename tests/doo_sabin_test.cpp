@@ -151,7 +151,7 @@ TEST_CASE("after one step every interior point has four faces", "[subdivide][pro
     const SubdivisionLevel level = subdivide(baseLevel(shape.mesh), 1);
     for (Index c = 0; c < level.mesh.cornerCount(); ++c) {
       const OneRing ring = oneRing(level.mesh, level.adjacency, c);
-      // A point of valence 2 makes no V-face, so its two image vertices keep three.
+      // A point of valence 2 makes no V-face, so its two image vertices have three faces.
       const bool besideValenceTwo = shape.name == "point of valence 2" && ring.corners.size() == 3;
       if (ring.closed && !besideValenceTwo) CHECK(ring.corners.size() == 4);
     }
@@ -186,7 +186,7 @@ TEST_CASE("numbering points and faces differently gives the same surface",
 
 TEST_CASE("a regular grid tends to the tensor-product quadratic B-spline",
           "[subdivide][property]") {
-  // Control points of one biquadratic patch, and a rim that open Doo-Sabin uses up.
+  // Control points of one biquadratic patch, and a rim that plain Doo-Sabin loses.
   const int n = 5;
   const PolygonMesh grid = test::sheet(n - 1, n - 1);
   // On the uniform B-spline the level-k control points of the middle patch tend to the surface; the

@@ -36,7 +36,7 @@ void checkNear(double estimate, double truth) {
   CHECK(truth <= kEstimateFactor * estimate);
 }
 
-/// Holds an estimate against what becomes of it.
+/// Compares an estimate with the conversion.
 void checkEstimate(const Scene& scene, const ConvertOptions& options) {
   std::vector<std::string> warnings;
   const Estimate guess = estimate(scene, options, warnings);
@@ -82,7 +82,7 @@ TEST_CASE("estimates are within a factor of 1.5 for every scene", "[estimate]") 
     }
 }
 
-TEST_CASE("estimates know of solids, wide bands and polygons", "[estimate]") {
+TEST_CASE("estimates cover solids, wide bands and polygons", "[estimate]") {
   for (const auto& mesh : {test::cube(), test::torusGrid(40, 20), test::prism(12)}) {
     Scene scene;
     scene.objects.push_back({"object", mesh});

@@ -1,4 +1,4 @@
-// In place of the library's operators new and delete.
+// Replaces the operators new and delete of the standard library.
 
 #include "tests/failing_allocation.h"
 

@@ -4,8 +4,8 @@
 
 namespace vox::test {
 
-/// While it lives, one allocation of this thread by `new` fails: number `n`, from 0, of those of at
-/// least `bytes`.
+/// Makes one allocation by `new` in this thread fail, as long as the object lives: number `n`, from
+/// 0, of the allocations of at least `bytes`.
 class FailingAllocation {
  public:
   FailingAllocation(int n, std::size_t bytes);
@@ -13,10 +13,10 @@ class FailingAllocation {
   FailingAllocation(const FailingAllocation&) = delete;
   FailingAllocation& operator=(const FailingAllocation&) = delete;
 
-  /// Whether it has.
+  /// Whether the allocation has failed.
   bool failed() const;
 
-  /// False where a sanitizer checks allocations itself: then none fails.
+  /// False in builds with a sanitizer, which has its own allocator: no allocation fails there.
   static bool possible();
 };
 

@@ -22,7 +22,7 @@ skipped() {
   echo "skipped: $*"
 }
 
-# What is converted: long enough to be hit on the way.
+# The conversion, long enough for faults to hit it.
 mkdir out
 cp "$scenes/toy_jack.obj" mesh.obj
 options=(--dim 128 --grids density,mask,surface)

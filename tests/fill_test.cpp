@@ -18,7 +18,8 @@ using openvdb::MaskTree;
 
 namespace {
 
-/// What no path of inactive voxels from the corner of a box reaches, voxel by voxel.
+/// The voxels that no path of inactive voxels from the corner of a box reaches, by a flood voxel by
+/// voxel.
 MaskTree slowlyFilled(const MaskTree& surface) {
   CoordBBox box;
   surface.evalActiveVoxelBoundingBox(box);
@@ -68,8 +69,7 @@ std::int64_t volumeOf(const CoordBBox& box) {
 
 }  // namespace
 
-TEST_CASE("a fill is what a search from outside, voxel by voxel, does not reach",
-          "[volume][property]") {
+TEST_CASE("a fill has the voxels that a search from outside does not reach", "[volume][property]") {
   std::mt19937 random(7);
   for (const int side : {5, 20, 40})
     for (const double density : {0.3, 0.5, 0.65, 0.69, 0.72, 0.8}) {
@@ -102,9 +102,9 @@ TEST_CASE("a box is filled with tiles, and leaks through one missing voxel", "[v
   }
 }
 
-TEST_CASE("what is enclosed may be larger than the largest node", "[volume]") {
-  // A shell of active tiles, 4096 thick, around 3 x 1 x 1 empty places of upper nodes, the middle
-  // one of which has no neighbour that is there.
+TEST_CASE("enclosed regions may be larger than the largest node", "[volume]") {
+  // A shell of active tiles, 4096 thick, around 3 x 1 x 1 empty places of upper nodes. The middle
+  // one has no upper node beside it.
   constexpr int kDim = 4096;
   MaskTree tree;
   for (int i = -1; i < 6; ++i)
@@ -113,7 +113,7 @@ TEST_CASE("what is enclosed may be larger than the largest node", "[volume]") {
         if (i >= 0 && i < 5 && j == 0 && k == 0) continue;
         const Coord low(kDim * i, kDim * j, kDim * k);
         tree.sparseFill(CoordBBox(low, low.offsetBy(kDim - 1)), true, true);
-        // Not a tile of the root: one voxel off makes it a node.
+        // One voxel is switched off, so that it is a node and not a tile of the root.
         tree.setValueOff(low.offsetBy(1000));
       }
   const std::int64_t wall = static_cast<std::int64_t>(tree.activeVoxelCount());
@@ -140,7 +140,8 @@ TEST_CASE("voxels scattered over all space enclose nothing", "[volume]") {
   CHECK(filled(tree, {})->activeVoxelCount() == tree.activeVoxelCount());
 }
 
-TEST_CASE("enclosed regions are asked for one by one, by a voxel inside", "[volume]") {
+TEST_CASE("cavities are chosen among all enclosed regions, each given by a voxel inside",
+          "[volume]") {
   const CoordBBox outer(Coord(0), Coord(400));
   const CoordBBox middle(Coord(100), Coord(300));
   const CoordBBox inner(Coord(198), Coord(202));
@@ -166,7 +167,7 @@ TEST_CASE("enclosed regions are asked for one by one, by a voxel inside", "[volu
         volumeOf(outer) - volumeOf(cavity) + volumeOf(inner));
 }
 
-TEST_CASE("any number of threads fills alike", "[volume][parallel]") {
+TEST_CASE("thread count never changes a fill", "[volume][parallel]") {
   std::mt19937 random(11);
   MaskTree tree;
   std::uniform_int_distribution<int> at(0, 150);

@@ -23,8 +23,8 @@ namespace {
 
 constexpr int kMostIterations = 40;
 
-/// Where the limit surface of a control mesh is nearest to what its interior vertices stand for:
-/// the centroid of each V-face of level 1. From the level itself, not from the lifting matrix.
+/// Largest distance between interior vertices to interpolate and their limit points, the centroids
+/// of the V-faces of level 1. Computed from the level, not from the lifting matrix.
 double distanceFromInterior(const SubdivisionLevel& controls, const PolygonMesh& wanted,
                             const std::vector<Index>& vertices) {
   const SubdivisionLevel level = subdivide(controls, 1);
@@ -49,7 +49,8 @@ double distanceFromInterior(const SubdivisionLevel& controls, const PolygonMesh&
   return worst;
 }
 
-/// The same for the boundary: midpoints of the boundary edges across the vertices' half V-faces.
+/// The same for boundary vertices: the limit points are the midpoints of the boundary edges in
+/// their half V-faces.
 double distanceFromBoundary(const SubdivisionLevel& controls, const PolygonMesh& wanted) {
   const SubdivisionLevel level = subdivide(controls, 3);
   std::vector<Vec3d> middles;
@@ -87,8 +88,8 @@ std::vector<test::Shape> allShapes() {
   return all;
 }
 
-/// How far the boundary curve, the quadratic B-spline of each loop, is from the vertices it stands
-/// for.
+/// Largest distance of boundary vertices from the boundary curves, the quadratic B-splines of the
+/// loops.
 double distanceOfCurve(const SubdivisionLevel& controls, const PolygonMesh& wanted) {
   double worst = 0;
   for (const auto& loop : boundaryLoops(controls.mesh, controls.adjacency)) {
@@ -125,7 +126,7 @@ PolygonMesh roughened(const PolygonMesh& mesh, double size) {
 
 }  // namespace
 
-TEST_CASE("the surface passes through the vertices asked for, in every combination",
+TEST_CASE("the surface passes through the chosen vertices, in every combination",
           "[prepare][property]") {
   for (const auto& shape : allShapes())
     for (const Interpolate which : {Interpolate::kNothing, Interpolate::kInterior,
@@ -216,7 +217,7 @@ TEST_CASE("vertices that cannot be interpolated are refused by number", "[prepar
   CHECK_THROWS_WITH(interpolateBoundary(touching, buildAdjacency(touching)), Contains("vertex 0"));
 }
 
-TEST_CASE("a prescribed boundary vertex is served by boundary interpolation", "[prepare]") {
+TEST_CASE("a prescribed boundary vertex needs boundary interpolation", "[prepare]") {
   const SubdivisionLevel level = baseLevel(test::sheet(3, 3));
   InterpolationReport report;
   const std::vector<Index> list = {0, 5};
@@ -225,7 +226,7 @@ TEST_CASE("a prescribed boundary vertex is served by boundary interpolation", "[
   CHECK(report.lift.vertices == 1);
 }
 
-TEST_CASE("vertices without a V-face are left out of all interior ones", "[prepare]") {
+TEST_CASE("interpolating all interior vertices leaves out those without a V-face", "[prepare]") {
   for (const auto& mesh : {test::valenceTwo(), test::bowTie()}) {
     const SubdivisionLevel level = baseLevel(mesh);
     InterpolationReport report;

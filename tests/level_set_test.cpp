@@ -104,7 +104,7 @@ TEST_CASE("distances around extraordinary vertices and faces are as exact", "[le
     double largest = 0;
     int seen = 0;
     for (auto value = grid->cbeginValueOn(); value; ++value) {
-      // Farther than two voxels a sample in place of the surface makes no difference.
+      // Beyond two voxels, the distance to a sample is as good as that to the surface.
       if (std::abs(*value) < 0.1 || ++seen % 53 != 0) continue;
       const double truth = distanceTo(samples, worldOf(*grid, value.getCoord()));
       largest = std::max(largest, std::abs(std::abs(double{*value}) - truth) / 0.05);
@@ -149,7 +149,7 @@ TEST_CASE("overlapping objects and components are united", "[level-set]") {
   }
 }
 
-TEST_CASE("a component that faces inward is taken out, and what lies in it is put back",
+TEST_CASE("a component that faces inward is a cavity, and components in it are solid",
           "[level-set]") {
   const PolygonMesh cube = test::cube();
   PolygonMesh all =
@@ -195,7 +195,7 @@ TEST_CASE("an open mesh is a sheet one voxel thick, or distances without sign, o
   CHECK_THROWS_AS(convert(sceneOf({flat}), options), MeshError);
 }
 
-TEST_CASE("an open object beside a closed one leaves it its sign", "[level-set]") {
+TEST_CASE("a closed object keeps its sign beside an open one", "[level-set]") {
   for (const OpenMesh policy : {OpenMesh::kSurface, OpenMesh::kUnsigned}) {
     ConvertOptions options = surfaceAt(0.1);
     options.volume.openMesh = policy;
@@ -214,7 +214,7 @@ TEST_CASE("the polygons of a level have their own level set", "[level-set]") {
   CHECK(valueAt(*grid, Vec3d(0, 1.2, 0)) == Approx(0.2).margin(1e-5));
 }
 
-TEST_CASE("a level set needs no voxels, and says nothing of them", "[level-set]") {
+TEST_CASE("a level set is made without voxels, and none are reported", "[level-set]") {
   const Conversion alone = convert(sceneOf({test::cube()}), surfaceAt(0.1));
   CHECK(alone.report.activeVoxels == surfaceOf(alone)->activeVoxelCount());
   CHECK((*alone.grids[0])["vox_options"] != nullptr);

@@ -51,7 +51,7 @@ std::string codesOfFile(const openvdb::GridPtrVec& grids, const std::string& cre
 
 }  // namespace
 
-TEST_CASE("what vox convert makes has no faults", "[inspect][lint]") {
+TEST_CASE("grids made by vox convert have no faults", "[inspect][lint]") {
   const test::TemporaryFolder folder;
   Scene scene;
   scene.objects.push_back({"torus", test::torusGrid(8, 5)});
@@ -99,7 +99,7 @@ TEST_CASE("every fault planted in a fog volume is named", "[inspect][lint]") {
         }) == "frustum");
 }
 
-TEST_CASE("a mask that has changed since it was made is found out", "[inspect][lint]") {
+TEST_CASE("a mask that was changed after it was made is recognised", "[inspect][lint]") {
   openvdb::initialize();
   auto mask = openvdb::MaskGrid::create();
   mask->setName("mask");
@@ -126,7 +126,7 @@ TEST_CASE("signed distances are checked as such, and must not be called density"
   CHECK(codesOf(lintGrid(*wrong)) == "level-set");
 }
 
-TEST_CASE("vectors are looked into", "[inspect][lint]") {
+TEST_CASE("values and names of vector grids are checked", "[inspect][lint]") {
   openvdb::initialize();
   auto grid = openvdb::Vec3SGrid::create();
   grid->setName("velocity");

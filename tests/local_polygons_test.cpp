@@ -24,7 +24,7 @@ using namespace vox;
 
 namespace {
 
-/// Joins points of the same bits.
+/// Collects the polygons of all pieces; points with the same bits become one.
 class Welder : public PolygonSink {
  public:
   PolygonMesh mesh;
@@ -62,8 +62,8 @@ std::vector<VertexDepth> uniform(const SubdivisionLevel& base, int k) {
   return {base.mesh.cornerCount(), VertexDepth{depth, depth}};
 }
 
-/// Whether the level-1 vertex of each corner is regular: of others, depths must be the same along u
-/// and v.
+/// For each corner, whether its level-1 vertex is regular. For other vertices, depths along u and v
+/// must be the same.
 std::vector<std::uint8_t> regularCorners(const SubdivisionLevel& base) {
   const Index corners = base.mesh.cornerCount();
   std::vector<std::uint8_t> regular(corners);
@@ -76,7 +76,8 @@ std::vector<std::uint8_t> regularCorners(const SubdivisionLevel& base) {
   return regular;
 }
 
-/// Deep and shallow beside each other; of regular vertices along u and v apart.
+/// Random depths, so that deep and shallow vertices are neighbours; for regular vertices different
+/// along u and v.
 std::vector<VertexDepth> randomDepths(const SubdivisionLevel& base, int most, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_int_distribution<int> level(0, most);
@@ -90,7 +91,7 @@ std::vector<VertexDepth> randomDepths(const SubdivisionLevel& base, int most, st
   return depths;
 }
 
-/// Every shape, with the boundary rules that it can have.
+/// Calls check for every shape, with each boundary rule that makes a difference.
 template <class Check>
 void forShapes(Check&& check) {
   for (const auto* shapes : {&test::shapes(), &test::openShapes()})
@@ -132,7 +133,7 @@ TEST_CASE("at one depth everywhere, local polygons are the level of global Doo-S
   });
 }
 
-TEST_CASE("whatever the depths, the polygons have no gap", "[subdivide][localize][property]") {
+TEST_CASE("polygons have no gaps for any depths", "[subdivide][localize][property]") {
   std::uint32_t seed = 0;
   forShapes([&](const SubdivisionLevel& base) {
     const SubdivisionLevel first = subdivide(base, 1);
@@ -148,7 +149,7 @@ TEST_CASE("whatever the depths, the polygons have no gap", "[subdivide][localize
       CHECK(boundaryLoops(mesh, adjacency).size() == loops);
       if (loops == 0) CHECK(boundaryEdges(mesh) == 0);
 
-      // However the surface is cut up, faces have the same bits.
+      // Faces have the same bits for any partition.
       const PolygonMesh whole = refined(base, depths, 100000);
       CHECK(whole.faceCount() == mesh.faceCount());
       CHECK(test::samePoints(whole.points, mesh.points, 0));
@@ -156,7 +157,7 @@ TEST_CASE("whatever the depths, the polygons have no gap", "[subdivide][localize
   });
 }
 
-TEST_CASE("polygons as fine as a rule says have no gap, thin parts with fewer vertices included",
+TEST_CASE("polygons refined by a rule have no gaps, also with fewer vertices in thin parts",
           "[subdivide][localize][property]") {
   std::size_t saved = 0;
   for (const StopRule& until :
@@ -194,7 +195,7 @@ double largestDiameter(const PolygonMesh& mesh) {
   return largest;
 }
 
-/// Distance of p from a triangle, by its nearest point among plane, sides and corners.
+/// Distance of p from a triangle: the least of those from its plane, sides and corners.
 double distanceFrom(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const auto fromSide = [&](const Vec3d& s, const Vec3d& t) {
     const double length = (t - s).squaredNorm();
@@ -211,8 +212,8 @@ double distanceFrom(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d&
   return above ? std::abs((p - a).dot(n)) / n.norm() : rim;
 }
 
-/// Largest distance of points from the faces of a mesh, cut into fans both ways round: the smaller
-/// of the two, since either may be how the faces are cut.
+/// Largest distance of points from the faces of a mesh. Faces are cut into fans in both ways; the
+/// smaller distance counts, because either way is allowed.
 double farthest(const std::vector<Vec3d>& points, const PolygonMesh& mesh) {
   double farthest = 0;
   for (const Vec3d& p : points) {
@@ -321,7 +322,7 @@ TEST_CASE("the polygons are as near the smooth surface as the rule says", "[subd
 
 namespace {
 
-/// Keeps points and normals as they come.
+/// Keeps all points and normals.
 class Recorder : public PolygonSink {
  public:
   explicit Recorder(bool withNormals) : withNormals_(withNormals) {}
@@ -336,7 +337,7 @@ class Recorder : public PolygonSink {
     normals.insert(normals.end(), pieceNormals.begin(), pieceNormals.end());
   }
 
-  /// One normal for all points of the same bits.
+  /// The normal of each point; checks that points with the same bits have the same normal.
   std::map<std::array<double, 3>, Vec3d> byPoint() const {
     std::map<std::array<double, 3>, Vec3d> all;
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -367,7 +368,7 @@ double degreesBetween(const Vec3d& a, const Vec3d& b) {
 
 }  // namespace
 
-TEST_CASE("normals never show in the polygons, and are the same from all pieces",
+TEST_CASE("normals do not change the polygons, and are the same in all pieces",
           "[subdivide][localize][normals][property]") {
   std::uint32_t seed = 100;
   forShapes([&](SubdivisionLevel base) {
@@ -394,7 +395,7 @@ TEST_CASE("normals never show in the polygons, and are the same from all pieces"
   });
 }
 
-TEST_CASE("tiles of large arrays bring the normals of their neighbours",
+TEST_CASE("tiles of large arrays have the same normals as the pieces beside them",
           "[subdivide][localize][normals]") {
   const SubdivisionLevel base = test::repairedLevel(test::tetrahedron(), BoundaryRule::kExtend);
   std::vector<VertexDepth> depths(base.mesh.cornerCount());
@@ -459,7 +460,7 @@ TEST_CASE("on a boundary, normals stand across its curve",
         steep += slope > 1e-9;
         ++points;
       }
-    // Those beside the corners of a sheet, where the vertex inside has its own plane.
+    // Only beside the corners of a sheet, where the vertex inside has another plane.
     CHECK(steep <= 8);
     CHECK(points > 50);
   }

@@ -51,8 +51,8 @@ class Collector : public SurfaceSink {
   }
 
  private:
-  /// Whether a descendant exists: it lies in the face of one quadrant, at every level in a child
-  /// whose face there exists.
+  /// Whether a descendant exists: at every level, the face of the quadrant in which it lies must
+  /// exist.
   static bool wanted(unsigned quadrants, std::int64_t i, std::int64_t j, std::int64_t n) {
     while (n > 1) {
       n /= 2;
@@ -63,7 +63,7 @@ class Collector : public SurfaceSink {
       const unsigned acrossV = own ^ 1U;
       const auto has = [&](unsigned q) { return (quadrants >> q & 1U) != 0; };
       if (!has(own)) return false;
-      // Of the child's faces, one lies in its own face; those towards the sides lie on edges.
+      // One face of the child lies within the parent's face; those towards the sides are on edges.
       unsigned child = 1U << own;
       if (has(acrossU)) child |= 1U << acrossU;
       if (has(acrossV)) child |= 1U << acrossV;
@@ -122,20 +122,20 @@ TEST_CASE("submeshes emit the vertices of the whole mesh, each once and at its l
         }
 }
 
-TEST_CASE("the vertices of long thin patches are the same for every cut, and few",
+TEST_CASE("the vertices of long thin patches are few, and the same for every partition",
           "[subdivide][localize][property]") {
   const SubdivisionLevel base = scaled(test::torusGrid(4, 64), 60.0, BoundaryRule::kExtend);
   const Collector whole = globally(base);
   for (const Index faces : {1U, 1000U}) requireSame(locally(base, faces), whole);
   std::size_t count = 0;
   for (const auto& [level, vertices] : whole.vertices) count += vertices.size();
-  // In squares, each of the 1024 corners would become as many along the short side as along the
-  // long.
+  // With square arrays, each of the 1024 corners would have as many descendants along the short
+  // side as along the long one.
   const int deepest = whole.vertices.rbegin()->first;
   CHECK(count < (std::size_t{1024} << (2 * (deepest - 1))) / 8);
 }
 
-TEST_CASE("a long bar is the same for every cut, though it is thin askew",
+TEST_CASE("a long bar at an angle to the axes is the same for every partition",
           "[subdivide][localize][property]") {
   RepairReport report;
   const SubdivisionLevel base = scaled(repair(bar(40), {}, report), 2.0, BoundaryRule::kExtend);

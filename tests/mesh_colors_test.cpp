@@ -54,14 +54,14 @@ TEST_CASE("OFF keeps colours of vertices and faces", "[io][color]") {
       "a.off", "COFF\n3 1 0\n0 0 0 255 0 51 255\n1 0 0 0 0 0 255\n0 1 0 51 255 0 255\n3 0 1 2\n");
   CHECK(near(mesh.pointColors, {light(1, 0, 0.2), light(0, 0, 0), light(0.2, 1, 0)}));
   CHECK(mesh.faceColors.empty());
-  // A normal comes before the colour, whatever the keyword's order.
+  // A normal comes before the colour, for any order in the keyword.
   const PolygonMesh both =
       parseMesh("a.off",
                 "CNOFF\n3 2 0\n0 0 0 0 0 1 1 0 0\n1 0 0 0 0 1 1 0 0\n0 1 0 0 0 1 0 1 0\n"
                 "3 0 1 2 0.5 0.25 1\n3 0 2 1 0 1 0 0.5\n");
   CHECK(near(both.pointColors, {light(1, 0, 0), light(1, 0, 0), light(0, 1, 0)}));
   CHECK(near(both.faceColors, {light(0.5, 0.25, 1), light(0, 1, 0)}));
-  // A number alone is an index into a table, one face without is white.
+  // A single number is an index into a table and ignored; a face without colour is white.
   const PolygonMesh some =
       parseMesh("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 7\n3 0 2 1 255 0 0\n");
   CHECK(some.pointColors.empty());
@@ -90,7 +90,7 @@ TEST_CASE("PLY keeps colours of vertices and faces, scaled by their type", "[io]
 }
 
 TEST_CASE("colours follow points and faces through repair and turning", "[prepare][color]") {
-  // Each face with vertices of its own, in the colour of its number; one of them wound wrong.
+  // Each face has vertices of its own and a colour by its number; one face is flipped.
   PolygonMesh mesh = test::unwelded(test::cube());
   test::flipFace(mesh, 3);
   for (Index v = 0; v < mesh.pointCount(); ++v)

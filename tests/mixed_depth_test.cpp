@@ -1,5 +1,5 @@
-// Neighbouring vertices of different levels: what vertex conversion promises of them, by brute
-// force.
+// The guarantee of vertex conversion for neighbouring vertices of different levels, checked by
+// brute force.
 
 #include "libvox/grid/transform.h"
 #include "libvox/grid/voxel.h"
@@ -31,13 +31,13 @@ std::vector<double> facesAround(const PolygonMesh& mesh) {
   return largest;
 }
 
-/// The voxels of a closed surface whose vertices stop at random levels: none before the faces
-/// around it measure at most `span`, and all by the last level.
+/// The voxels of a closed surface whose vertices stop at random levels: no vertex stops before the
+/// faces around it measure at most `span`; at the last level all stop.
 struct RandomDepths {
   openvdb::MaskGrid mask;
   PolygonMesh fine;          ///< the first level with faces of at most one voxel
-  int levels = 0;            ///< between the first vertex that stops and the last
-  std::size_t vertices = 0;  ///< that have stopped
+  int levels = 0;            ///< from the first vertex that stops to the last
+  std::size_t vertices = 0;  ///< number of vertices that have stopped
 
   RandomDepths(SubdivisionLevel level, double span, std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -68,7 +68,7 @@ struct RandomDepths {
   }
 };
 
-/// A closed shape with its longest side of so many voxels, somewhere between the lattice points.
+/// A closed shape in index space, its longest side `side` voxels long, at a random offset.
 SubdivisionLevel placed(PolygonMesh mesh, double side, std::uint32_t seed) {
   RepairReport report;
   mesh = repair(std::move(mesh), {}, report);
@@ -82,7 +82,7 @@ SubdivisionLevel placed(PolygonMesh mesh, double side, std::uint32_t seed) {
 
 }  // namespace
 
-TEST_CASE("vertices may stop at any level from where the faces around them fit into a voxel",
+TEST_CASE("vertices may stop at any level once the faces around them fit into a voxel",
           "[voxelize][subdivide][property]") {
   std::size_t tried = 0;
   for (const auto& shape : test::shapes()) {

@@ -103,8 +103,7 @@ TEST_CASE("any mutated mesh becomes solids and level sets, or is refused with an
   CHECK(converted > 150);
 }
 
-TEST_CASE("a mesh with one index or coordinate that means nothing is refused",
-          "[pipeline][property]") {
+TEST_CASE("a mesh with one invalid index or coordinate is refused", "[pipeline][property]") {
   const double infinite = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
@@ -122,7 +121,7 @@ TEST_CASE("a mesh with one index or coordinate that means nothing is refused",
   }
 }
 
-TEST_CASE("meshes that are no manifolds are converted, and what was done is told", "[pipeline]") {
+TEST_CASE("meshes that are not manifolds are converted, and repairs are reported", "[pipeline]") {
   PolygonMesh doubled = test::cube();
   for (Index f = 0; f < 6; ++f) doubled.addFace(test::cube().face(f));
   const std::vector<std::pair<PolygonMesh, std::string>> cases = {

@@ -50,7 +50,7 @@ Vec3d normalByDifferences(const Patch& patch, double u, double v) {
   return alongU.cross(alongV).normalized();
 }
 
-/// Distance of a position from where another voxel begins.
+/// Distance of a position from the next voxel.
 double distanceFromTie(const Vec3d& position) {
   const Vec3d shifted = position + Vec3d::Constant(0.5);
   return (shifted.array() - shifted.array().round()).abs().minCoeff();
@@ -146,7 +146,7 @@ TEST_CASE("every vertex gives its voxel the normal of the limit surface", "[norm
     }
 }
 
-TEST_CASE("a patch turned round or halved has the same vertices and the same outside",
+TEST_CASE("a patch that is turned or halved has the same vertices and the same outside",
           "[normals][property]") {
   std::mt19937_64 random(2);
   const Patch patch = bentPatch(random, 10);
@@ -191,7 +191,7 @@ TEST_CASE("tiles of normals have the same bits on every instruction set", "[norm
   hwy::GetChosenTarget().DeInit();
 }
 
-TEST_CASE("samples outside active voxels are of no consequence", "[normals]") {
+TEST_CASE("samples outside active voxels are ignored", "[normals]") {
   openvdb::MaskTree voxels;
   voxels.setValueOn(Coord(7, 9, 3));
   VoxelMeans means(voxels);

@@ -39,8 +39,8 @@ double degrees(const Vec3d& a, const Vec3d& b) {
          std::numbers::pi;
 }
 
-/// Mean and largest angle between the normals of a grid, or of one voxel in so many, and those of a
-/// rule.
+/// Mean and largest angle, in degrees, between the normals of a grid and those of a rule.
+/// @param oneIn  compares only one voxel of so many
 template <class Rule>
 std::pair<double, double> errors(const openvdb::Vec3SGrid& grid, Rule&& rule, int oneIn = 1) {
   double sum = 0;
@@ -114,8 +114,8 @@ TEST_CASE("normals of a round surface point away from its axis, better with fine
 
 TEST_CASE("normals of polygons are those of the smooth surface, not of facets",
           "[normals][property]") {
-  // Mean degrees off the surface's own, as measured: of facets 7.0, 2.8, 1.5, of normals blended
-  // over them 1.1, 0.45, 0.18.
+  // Measured mean errors in degrees: flat normals of the polygons 7.0, 2.8, 1.5; normals blended
+  // over the polygons 1.1, 0.45, 0.18.
   const PolygonMesh ring = test::torusGrid(9, 6);
   const test::SplineTorus torus(9, 6);
   const std::vector<std::pair<int, double>> cases = {{1, 0.02}, {2, 0.02}, {3, 0.01}};
@@ -164,7 +164,7 @@ TEST_CASE("polygons as they are have flat normals", "[normals][golden]") {
       expected[axis] = top ? 1.0F : -1.0F;
       CHECK((grid->tree().getValue(at) - expected).length() < 1e-6);
     }
-  // Where three faces meet, their mean.
+  // At a corner, the mean of the normals of three faces.
   const openvdb::Vec3s corner = grid->tree().getValue(box.max());
   CHECK(degrees(vectorOf(corner), {1, 1, 1}) < 25);
 }

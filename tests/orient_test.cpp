@@ -84,7 +84,7 @@ TEST_CASE("every face starts at its lowest vertex", "[orient]") {
   }
 }
 
-TEST_CASE("flipping and rotating any faces of a closed mesh changes not a bit",
+TEST_CASE("flipping and rotating any faces of a closed mesh changes nothing",
           "[orient][property]") {
   for (const auto& shape : test::shapes()) {
     if (!shape.closed || shape.name == "bow tie") continue;
@@ -144,7 +144,7 @@ TEST_CASE("repair and orient together ignore winding and rotation of a crowded m
   }
 }
 
-TEST_CASE("a cavity keeps facing inward, when the input says so", "[orient]") {
+TEST_CASE("a cavity keeps facing inward if it does so in the input", "[orient]") {
   const PolygonMesh solid = test::cube();
   const PolygonMesh hollow =
       test::together(solid, test::insideOut(test::cube()), {0.1, 0.2, 0.1}, 0.5);
@@ -166,7 +166,7 @@ TEST_CASE("a cavity keeps facing inward, when the input says so", "[orient]") {
 TEST_CASE("an inside-out cube beside another one is no cavity", "[orient]") {
   const auto out = oriented(test::together(test::cube(), test::insideOut(test::cube()), {5, 0, 0}));
   CHECK(volume(out.mesh) == Approx(16));
-  // Within the bounding box is not yet within: here, in the hole of a torus.
+  // The cube is inside the bounding box, but not inside: it is in the hole of the torus.
   const PolygonMesh ring =
       test::together(test::torusGrid(24, 12), test::insideOut(test::cube()), {0, 0, 0}, 0.1);
   CHECK(oriented(ring).report.cavities == 0);
@@ -215,7 +215,7 @@ TEST_CASE("the two sides of a one-sided surface subdivide to the same points", "
   std::sort(points.begin(), points.end(), [](const Vec3d& p, const Vec3d& q) {
     return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
   });
-  // Every point of the limit is there from either side: no point is far from its nearest in order.
+  // Every point of the limit is there twice, from both sides: sorted, they come in pairs.
   const auto pairs = points.size() / 2;
   std::vector<Vec3d> odd;
   std::vector<Vec3d> even;
@@ -226,7 +226,7 @@ TEST_CASE("the two sides of a one-sided surface subdivide to the same points", "
   CHECK(test::samePoints(even, odd, 1e-12));
 }
 
-TEST_CASE("one-sided surfaces do not depend on winding and rotation but for the side", "[orient]") {
+TEST_CASE("winding and rotation change only the side of one-sided surfaces", "[orient]") {
   const PolygonMesh strip = test::moebius(9);
   const auto expected = oriented(strip);
   for (std::uint32_t seed = 0; seed < 20; ++seed) {

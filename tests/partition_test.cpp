@@ -35,7 +35,7 @@ std::vector<Index> submeshOfFaces(const Partition& partition) {
   return submesh;
 }
 
-/// Part of the interior edges whose two faces lie in one submesh.
+/// Share of the interior edges whose two faces lie in one submesh.
 double innerPart(const Adjacency& adjacency, const std::vector<Index>& submesh) {
   double inner = 0;
   double all = 0;
@@ -66,7 +66,7 @@ TEST_CASE("a cover holds each face once, in submeshes of bounded size", "[locali
       }
 }
 
-TEST_CASE("submeshes are compact, in whatever order a large mesh has its faces",
+TEST_CASE("submeshes are compact for any order of the faces of a large mesh",
           "[localize][property]") {
   const PolygonMesh ordered = test::torusGrid(200, 200);
   constexpr Index kMost = 64;
@@ -82,7 +82,7 @@ TEST_CASE("submeshes are compact, in whatever order a large mesh has its faces",
   }
 }
 
-TEST_CASE("however many faces meet, submeshes need little more than the mesh",
+TEST_CASE("submeshes need little more than the mesh, even if thousands of faces meet",
           "[localize][property]") {
   constexpr int kFaces = 20000;
   const PolygonMesh cone = test::openFan(kFaces, 3);

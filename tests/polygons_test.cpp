@@ -48,12 +48,13 @@ int largest(const Coord& c) {
   return std::max({std::abs(c.x()), std::abs(c.y()), std::abs(c.z())});
 }
 
-/// How many coordinates have that size.
+/// Number of coordinates with this absolute value.
 int countOf(const Coord& c, int size) {
   return (std::abs(c.x()) == size) + (std::abs(c.y()) == size) + (std::abs(c.z()) == size);
 }
 
-/// Checks that exactly the voxels of a cube around 0 of which isActive says so are active.
+/// Checks that exactly those voxels of a cube around 0 are active for which isActive is true, and
+/// that there are `count` of them.
 template <class IsActive>
 void checkVoxels(const openvdb::MaskGrid& mask, int side, std::uint64_t count,
                  IsActive&& isActive) {
@@ -140,12 +141,12 @@ TEST_CASE("a cube as it is has the voxels of its six faces", "[polygons][golden]
     CHECK(conversion.report.objects[0].polygons.triangles == 12);
     CHECK(conversion.report.objects[0].levels == 0);
   }
-  // The edges are nearer than 1/2 to voxels whose centres they do not reach.
+  // The edges are nearer than 1/2 to voxels, but do not reach their centres.
   checkVoxels(test::maskOf(convertCube(3.75, Separation::k6)), 6, 6 * 7 * 7,
               [](const Coord& c) { return largest(c) == 4 && countOf(c, 4) == 1; });
   checkVoxels(test::maskOf(convertCube(3.75, Separation::k26)), 6, 9 * 9 * 9 - 7 * 7 * 7,
               [](const Coord& c) { return largest(c) == 4; });
-  // The faces are those of voxels: both sides are met.
+  // The faces are between voxels: those on both sides are active.
   checkVoxels(
       test::maskOf(convertCube(3.5, Separation::k6)), 6, 6 * 7 * 7 + 7 * 7 * 7 - 5 * 5 * 5,
       [](const Coord& c) { return largest(c) == 3 || (largest(c) == 4 && countOf(c, 4) == 1); });
@@ -157,7 +158,8 @@ TEST_CASE("concave faces are filled and no farther", "[polygons][golden]") {
   const Separation separation = GENERATE(Separation::k6, Separation::k26);
   const Conversion conversion =
       convert(test::oneObject(slottedBlock()), polygonsAt(1, 0, separation));
-  // Lattice points on the surface of a solid of whole numbers: those with a neighbour outside.
+  // The active voxels are the lattice points on the surface of the solid: those with a neighbour
+  // outside.
   std::uint64_t count = 0;
   const auto isActive = [&](const Coord& c) {
     bool surrounded = true;
@@ -180,7 +182,7 @@ TEST_CASE("a prism of any number of sides has the voxels of its faces as fans",
   const double voxelSize = 0.07;
   const Conversion conversion =
       convert(test::oneObject(mesh), polygonsAt(voxelSize, 0, separation));
-  // Convex faces, and flat ones also when their corners are snapped: each way to cut them is right.
+  // The faces are convex, and flat also after their corners are snapped, so any fan is right.
   std::vector<Vec3d> points;
   for (const Vec3d& p : mesh.points) points.push_back(p / voxelSize);
   openvdb::MaskTree expected;
@@ -197,7 +199,8 @@ TEST_CASE("a prism of any number of sides has the voxels of its faces as fans",
   CHECK(test::maskOf(conversion).tree().hasSameTopology(expected));
 }
 
-TEST_CASE("polygons of any level separate inside from outside as asked", "[polygons][property]") {
+TEST_CASE("polygons of any level separate inside from outside, by either separation",
+          "[polygons][property]") {
   const int levels = GENERATE(0, 1, 3);
   bool diagonalStepsLeak = false;
   for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::prism(7)}) {
@@ -255,7 +258,7 @@ TEST_CASE("vertex conversion of a deep refinement stays within a voxel of its po
   }
 }
 
-TEST_CASE("options say where to stop before objects, objects before the scene", "[polygons]") {
+TEST_CASE("a stop rule of the options wins over objects, theirs over the scene", "[polygons]") {
   Scene scene = test::oneObject(test::cube());
   scene.objects.push_back({"second", test::cube()});
   scene.until = StopRule{1};
@@ -294,7 +297,7 @@ TEST_CASE("one object may stay polygons while another is smoothed", "[polygons]"
   CHECK_THROWS_WITH(convert(scene, options), Contains("object") && Contains("needs --until voxel"));
 }
 
-TEST_CASE("an open mesh left as it is does not shrink, and nobody says so", "[polygons]") {
+TEST_CASE("an open mesh at level 0 does not shrink, and there is no warning", "[polygons]") {
   ConvertOptions options = polygonsAt(0.1, 0, Separation::k6);
   options.smoothing.boundary = BoundaryRule::kFree;
   CHECK(convert(test::oneObject(test::sheet(3, 3)), options).report.warnings.empty());
@@ -313,7 +316,7 @@ TEST_CASE("polygons that fold become fans, with a warning", "[polygons]") {
   CHECK_THAT(conversion.report.warnings[0], Contains("object: 1 polygon is folded"));
 }
 
-TEST_CASE("polygons that cannot be had are refused", "[polygons][error]") {
+TEST_CASE("impossible options for polygons are refused", "[polygons][error]") {
   const Scene scene = test::oneObject(test::cube());
   ConvertOptions options = polygonsAt(0.1, 0, Separation::k26);
   for (const int levels : {-1, kMostLevels + 1}) {
@@ -372,7 +375,8 @@ TEST_CASE("voxels of refined polygons are the same for every cut and any threads
     }
 }
 
-TEST_CASE("polygons of every rule separate inside from outside as asked", "[polygons][property]") {
+TEST_CASE("polygons of every rule separate inside from outside, by either separation",
+          "[polygons][property]") {
   for (const StopRule& rule :
        {StopRule{{}, 3.0}, StopRule{{}, {}, 10.0}, StopRule{{}, {}, {}, 0.1}, StopRule{2, 1.0}})
     for (const PolygonMesh& mesh : {test::cube(), test::dodecahedron(), test::prism(7)})
@@ -398,7 +402,7 @@ TEST_CASE("vertices lie in the 26-separating voxels of the polygons that fit int
     options.voxelize = Voxelize::kPolygon;
     const Conversion polygons = convert(test::oneObject(mesh), options);
     CHECK(polygons.report.objects[0].byPolygons);
-    // A vertex of the one need not be a vertex of the other: both are within 0.1 of the surface.
+    // The two meshes have different vertices; both are within 0.1 of the surface.
     CHECK(farVoxels(test::maskOf(vertices), test::maskOf(polygons), 1) == 0);
     CHECK(farVoxels(test::maskOf(polygons), test::maskOf(vertices), 1) == 0);
     options.voxelize.reset();
@@ -409,7 +413,7 @@ TEST_CASE("vertices lie in the 26-separating voxels of the polygons that fit int
   }
 }
 
-TEST_CASE("triangles for others keep to the rule and are the same for any threads",
+TEST_CASE("the triangle soup of a surface is closed and the same for any threads",
           "[polygons][parallel]") {
   SubdivisionLevel base = baseLevel(test::dodecahedron());
   for (Vec3d& p : base.mesh.points) p *= 50;
@@ -420,7 +424,7 @@ TEST_CASE("triangles for others keep to the rule and are the same for any thread
   const TriangleSoup again = onThreads(8, make);
   CHECK(soup.points == again.points);
   CHECK(soup.triangles == again.triangles);
-  // Closed: the area vectors of the triangles add up to nothing.
+  // The triangles are closed: their area vectors add up to 0.
   Vec3d sum = Vec3d::Zero();
   double area = 0;
   for (const auto& [a, b, c] : soup.triangles) {

@@ -72,7 +72,7 @@ TEST_CASE("progress never goes back and never beyond 1, whatever is credited", "
   CHECK(reports.back().fraction == 1);
 }
 
-TEST_CASE("progress calls seldom: at the first of each stage, in the end, and once an interval",
+TEST_CASE("progress calls at the first of each stage, in the end, and else once an interval",
           "[core]") {
   std::vector<Report> reports;
   Progress progress(into(reports), std::chrono::hours(1));

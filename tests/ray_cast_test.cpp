@@ -34,7 +34,8 @@ std::vector<Coord> activeOf(const openvdb::MaskTree& voxels) {
   return all;
 }
 
-/// Times at which a ray is inside the unit cube around a voxel; none if the first is the larger.
+/// Times at which a ray enters and leaves the unit cube around a voxel; the first is larger if it
+/// misses the cube.
 std::pair<double, double> timesInside(const IndexRay& ray, const Coord& voxel) {
   double from = ray.t0();
   double to = ray.t1();
@@ -79,7 +80,7 @@ TEST_CASE("a ray hits the voxel that brute force finds first", "[inspect][proper
     ++hits;
     CHECK(hit->voxel == voxel);
     CHECK(hit->time == Approx(first).margin(1e-9));
-    // The face that is hit looks back, and the point lies on it.
+    // The face that is hit faces the origin of the ray, and the hit point lies on it.
     const openvdb::Vec3d face(hit->face.x(), hit->face.y(), hit->face.z());
     CHECK(face.dot(ray.dir()) < 0);
     CHECK((ray(hit->time) - voxel.asVec3d()).dot(face) == Approx(0.5).margin(1e-9));

@@ -1,4 +1,4 @@
-// OpenMesh's vectors start uninitialized, which GCC reports once they are inlined here.
+// OpenMesh's vectors are not initialized; GCC warns about it when they are inlined here.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 
 #include "libvox/io/read_mesh.h"
@@ -36,7 +36,8 @@ Polygons polygonsOf(const PolygonMesh& mesh) {
   return polygons;
 }
 
-// The message after "FILE:", once it is sure that it starts so and is one printable line.
+// The part of a message after "FILE:". Checks that the message starts so and is one printable
+// line.
 std::string refusal(std::string_view extension, std::string_view contents) {
   const TemporaryFolder folder;
   const auto file = folder.write("mesh" + std::string(extension), std::string(contents));
@@ -54,7 +55,7 @@ std::string refusal(std::string_view extension, std::string_view contents) {
 
 struct Refused {
   std::string contents;
-  std::string message;  // part of it, beginning with the line for text
+  std::string message;  // a part of it; for text it begins with the number of the line
 };
 
 void checkRefused(std::string_view extension, const std::vector<Refused>& cases) {
@@ -95,7 +96,7 @@ TEST_CASE("the extension names the format whatever its case", "[io]") {
   CHECK(polygonsOf(readText(".Off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")) == kOneTriangle);
 }
 
-TEST_CASE("what is no readable file is refused by name", "[io][error]") {
+TEST_CASE("unreadable files are refused by name", "[io][error]") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "folder.obj");
   const auto pipe = folder / "pipe.obj";
@@ -526,7 +527,7 @@ Mesh openMesh() {
   return mesh;
 }
 
-// The file that OpenMesh's own writer makes of it.
+// The OM file that OpenMesh writes for a mesh.
 template <typename Mesh>
 std::string omFile(const Mesh& mesh, const OpenMesh::IO::Options& options = {}) {
   omlog().disable();

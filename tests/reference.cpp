@@ -24,7 +24,7 @@ std::vector<Vec3d> cornersOf(const PolygonMesh& mesh, Index f) {
   return corners;
 }
 
-/// The triangulation that vertex conversion's criterion speaks of.
+/// The triangles of a face: of a quad along its shorter diagonal, of others a fan.
 std::vector<Triangle> triangles(std::vector<Vec3d> p) {
   if (p.size() == 4 && linf(p[1], p[3]) < linf(p[0], p[2])) p = {p[1], p[2], p[3], p[0]};
   std::vector<Triangle> fan;
@@ -92,8 +92,8 @@ bool isInside(const std::vector<Triangle>& surface, const Vec3d& p) {
   return winding > 0.5;
 }
 
-/// Whether a triangle comes within 1/2 (L-inf) of a point: bounds it by its box, which errs on the
-/// safe side.
+/// Whether the box of a triangle is within 1/2 (L-inf) of a point; so true for all triangles that
+/// are.
 bool isNear(const std::vector<Triangle>& surface, const Vec3d& p) {
   return std::any_of(surface.begin(), surface.end(), [&](const Triangle& t) {
     const Vec3d low = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
@@ -102,8 +102,7 @@ bool isNear(const std::vector<Triangle>& surface, const Vec3d& p) {
   });
 }
 
-/// All inactive voxels of a box that a 6-connected path of such voxels joins to `from`, taken out
-/// of `left`.
+/// Takes the 6-connected set of voxels around `from` out of `left`, a set of inactive voxels.
 std::vector<openvdb::Coord> takeComponent(openvdb::MaskTree& left, const openvdb::Coord& from) {
   std::vector<openvdb::Coord> component = {from};
   left.setValueOff(from);

@@ -59,7 +59,7 @@ TEST_CASE("level 0 is the control mesh when vertices are interpolated", "[pipeli
   CHECK(refine(inScene, 0, none, {}).mesh.points == test::cube().points);
 }
 
-TEST_CASE("what cannot be interpolated is said", "[pipeline][error]") {
+TEST_CASE("vertices that cannot be interpolated are refused with a reason", "[pipeline][error]") {
   PreparationOptions options;
   options.smoothing.interpolatedVertices = std::vector<Index>{8};
   CHECK_THROWS_WITH(refine(test::sceneOf({test::valenceTwo()}), 0, options, {}),
@@ -148,7 +148,7 @@ TEST_CASE("a strict run names the first thing that a mesh needs", "[pipeline][er
   repeated.addFace(std::vector<Index>{3, 3, 5});
   const PolygonMesh book = test::meshOf({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
                                         {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  PolygonMesh strip = test::moebius(8);  // wound against itself at one edge only
+  PolygonMesh strip = test::moebius(8);  // inconsistently wound at one edge only
   for (Index f = 4; f < 8; ++f) test::flipFace(strip, f);
   const std::vector<std::pair<PolygonMesh, std::string>> cases = {
       {flipped, "flipped face 4, "},
@@ -186,7 +186,7 @@ TEST_CASE("a strict run names the first thing that a mesh needs", "[pipeline][er
 
 TEST_CASE("elements in messages are those of the input, after repair too", "[pipeline]") {
   PolygonMesh mesh = test::cube();
-  mesh.addFace(std::vector<Index>{0, 0, 1});  // dropped, so the strip's faces move up
+  mesh.addFace(std::vector<Index>{0, 0, 1});  // is dropped, so faces of the strip are renumbered
   mesh = test::together(mesh, test::moebius(8), {5, 0, 0});
   const auto warnings = refine(test::sceneOf({mesh}), 0, {}, {}).warnings;
   REQUIRE(warnings.size() == 1);

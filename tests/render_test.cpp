@@ -65,7 +65,7 @@ int brightness(const Pixel& pixel) {
 
 namespace {
 
-/// Pixels covered in the row where they are most.
+/// Number of covered pixels in the widest row.
 double widestRow(const Image& image) {
   double widest = 0;
   for (int y = 0; y < image.height; ++y) {
@@ -133,7 +133,7 @@ TEST_CASE("colours are those of the grid, seen from the right side", "[inspect]"
   CHECK_FALSE(isRed(render(ball(), behind).at(35, 40)));
 }
 
-TEST_CASE("the background is as asked for", "[inspect]") {
+TEST_CASE("the background has the chosen colour", "[inspect]") {
   RenderOptions options = small();
   CHECK(render(ball(), options).at(0, 0) == Pixel{0, 0, 0, 0});
   options.background = {10, 20, 30, 255};
@@ -189,7 +189,7 @@ TEST_CASE("the sky is dim in a pit", "[inspect]") {
   CHECK(brightness(image.at(50, 40)) < brightness(image.at(30, 40)));
 }
 
-TEST_CASE("nonsense is refused, and a run can be cancelled", "[inspect][error]") {
+TEST_CASE("invalid options are refused, and a run can be cancelled", "[inspect][error]") {
   const auto with = [](auto change) {
     RenderOptions options = small();
     change(options);

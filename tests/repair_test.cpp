@@ -37,7 +37,7 @@ PolygonMesh orientedMesh(const PolygonMesh& mesh) {
   return orient(mesh, report);
 }
 
-/// The law: oriented, the result has no defects and no interior vertex of two faces.
+/// Checks that the mesh, once oriented, has no defects and no interior vertex of two faces.
 void checkRepaired(const PolygonMesh& mesh) {
   const PolygonMesh ready = orientedMesh(mesh);
   CHECK(test::faultOf(ready) == "");
@@ -117,7 +117,7 @@ TEST_CASE("points that stay are further apart than the tolerance, the others wit
   }
 }
 
-TEST_CASE("a tolerance that is no distance is refused", "[repair][weld][error]") {
+TEST_CASE("an invalid weld tolerance is refused", "[repair][weld][error]") {
   RepairReport report;
   CHECK_THROWS_AS(repair(test::cube(), {-1}, report), UsageError);
   CHECK_THROWS_AS(repair(test::cube(), {std::numeric_limits<double>::quiet_NaN()}, report),
@@ -400,8 +400,8 @@ TEST_CASE("mutated meshes end sound, repair is idempotent and repeatable", "[rep
 }
 
 TEST_CASE("adversarial meshes take no more than n log n", "[repair][property]") {
-  // Far from a second of processor time each when linear; minutes when quadratic. The limit only
-  // tells those apart.
+  // Each takes much less than a second of CPU time if the cost is linear, minutes if it is
+  // quadratic. The limit only distinguishes these.
   const Index n = 100000;
   std::vector<PolygonMesh> hard;
   hard.push_back(test::book(static_cast<int>(n)));  // an edge of n faces

@@ -33,7 +33,7 @@ Surface fanned(const PolygonMesh& mesh) {
   return surface;
 }
 
-/// Which voxels of [-side, side]^3 are active.
+/// The active voxels of [-side, side]^3.
 class Cube {
  public:
   Cube(const Surface& surface, Separation separation, int side)
@@ -63,7 +63,7 @@ class Cube {
     return static_cast<std::size_t>(std::count(active_.begin(), active_.end(), true));
   }
 
-  /// Pairs of inactive neighbours (6 or 26) of which one is on side true, one on side false.
+  /// Number of pairs of inactive neighbours (6 or 26) that are on different sides.
   template <class Side>
   std::size_t leaks(Separation separation, Side&& side) const {
     std::vector<bool> on(active_.size());
@@ -93,7 +93,7 @@ class Cube {
   std::vector<bool> active_;
 };
 
-/// Solid angle of a closed surface, in whole spheres: 0 outside.
+/// Winding number of a closed surface around a point: its solid angle in spheres; 0 outside.
 int winding(const Surface& surface, const Vec3d& at) {
   double angle = 0;
   for (const auto& triangle : surface.triangles) {
@@ -228,7 +228,7 @@ TEST_CASE("a 6-separating plane has one voxel per column of the axis that it fac
 TEST_CASE(
     "the voxels of a plane number its area times the 1-norm (26) or max-norm (6) of its normal",
     "[voxelize][golden]") {
-  // Theory: centres that see the plane through a cube (a segment) lie in a layer of that thickness.
+  // Theory: the centres whose cube (or segment) meets the plane are in a layer of this thickness.
   const Vec3d normal = Vec3d(0.31, -0.53, 0.79).normalized();
   const Vec3d along = normal.unitOrthogonal();
   const Vec3d across = normal.cross(along);

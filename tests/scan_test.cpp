@@ -3,7 +3,7 @@
 #include "libvox/core/error.h"
 #include "tests/scan_reference.h"
 
-#define HWY_IS_TEST  // all targets are generated, the plainest too
+#define HWY_IS_TEST  // compiles all targets, also the one without vectors
 #include <catch2/catch.hpp>
 #include <hwy/targets.h>
 
@@ -156,7 +156,7 @@ TEST_CASE("a million random triangles have exactly the voxels of the brute-force
     for (const Separation separation : kBoth) {
       const auto s = static_cast<std::size_t>(separation);
       if (together[s][i] != expected[s]) FAIL("together: " << s << ", " << described(soup[i]));
-      if (batch.reach < 1 && i % 8 != 0) continue;  // mostly the vector kernel's
+      if (batch.reach < 1 && i % 8 != 0) continue;  // those are mainly for the vector kernel
       if (scanned(soup[i], separation) != expected[s])
         FAIL("alone: " << s << ", " << described(soup[i]));
     }
@@ -187,7 +187,7 @@ TEST_CASE("every vector unit gives the voxels of plain code", "[voxelize][proper
 
 TEST_CASE("triangles hundreds and thousands of voxels long are as exact as small ones",
           "[voxelize][property]") {
-  // Slivers: many rows and tiles, few voxels. 512 voxels is where 128 bits set in.
+  // Slivers: many rows and tiles, few voxels. From 512 voxels on, 128 bits are needed.
   RandomTriangles next(4);
   for (const double length : {300.0, 500.0, 515.0, 1500.0})
     for (int i = 0; i < 6; ++i) {
@@ -213,7 +213,7 @@ TEST_CASE("a segment of millions of voxels along an axis has one voxel per step"
     a[axis] = -length;
     b[axis] = length;
     for (const Separation separation : kBoth) {
-      // 6: a segment off the lines through centres meets none of them.
+      // With k6, only a segment on a line through centres meets the segments of voxels.
       const bool onLine = separation == Separation::k6;
       const Corners corners = onLine
                                   ? Corners{a.array().round(), b.array().round(), a.array().round()}
@@ -266,7 +266,7 @@ TEST_CASE("touching counts", "[voxelize][golden]") {
   const Corners between = {Vec3d(0, 0, 0.5), Vec3d(4, 0, 0.5), Vec3d(0, 4, 0.5)};
   CHECK(count(between, Separation::k6) == 2 * 15);
   CHECK(count(between, Separation::k26) == 2 * 19);
-  // In the plane of centres, one.
+  // In a plane through centres, it activates one layer.
   const Corners through = {Vec3d(0, 0, 2), Vec3d(4, 0, 2), Vec3d(0, 4, 2)};
   CHECK(count(through, Separation::k6) == 15);
   CHECK(count(through, Separation::k26) == 19);
@@ -291,8 +291,7 @@ TEST_CASE("corners are scanned at the nearest lattice point, wherever they are l
   }
 }
 
-TEST_CASE("coordinates out of range, triangles too long and what is no number are refused",
-          "[voxelize][error]") {
+TEST_CASE("coordinates out of range, nan and triangles too long are refused", "[voxelize][error]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const double most = 1 << 30;

@@ -93,7 +93,7 @@ TEST_CASE("a mirrored object keeps its faces outward", "[scene]") {
   CHECK(scene.objects[0].mesh.faceVertices == std::vector<Index>{0, 2, 1});
 }
 
-TEST_CASE("an object says how it is smoothed", "[scene]") {
+TEST_CASE("an object has smoothing options of its own", "[scene]") {
   const Scene scene = read("[[object]]\n" + kTriangleKeys +
                            "boundary = 'free'\ninterpolate = 'both'\n"
                            "interpolate_vertices = [2, 0]\n[[object]]\n" +
@@ -104,7 +104,7 @@ TEST_CASE("an object says how it is smoothed", "[scene]") {
   CHECK(first.interpolatedVertices == std::vector<Index>{2, 0});
   CHECK_FALSE(scene.objects[1].smoothing.boundary.has_value());
 
-  // One choice: whoever names what to interpolate replaces all of it.
+  // These are one choice: an option for either of them replaces both.
   const SmoothingOptions none = {{}, Interpolate::kNothing, {}};
   CHECK(overriding(none, first).boundary == BoundaryRule::kFree);
   CHECK(overriding(none, first).interpolate == Interpolate::kNothing);
@@ -112,7 +112,7 @@ TEST_CASE("an object says how it is smoothed", "[scene]") {
   CHECK(overriding({}, first).interpolatedVertices == std::vector<Index>{2, 0});
 }
 
-TEST_CASE("the scene and an object say where to stop", "[scene]") {
+TEST_CASE("the scene and an object may have stop rules", "[scene]") {
   const Scene scene = read(
       "[convert]\nuntil = { levels = 3 }\n"
       "[[object]]\nuntil = { levels = 0 }\n" +
@@ -137,7 +137,7 @@ TEST_CASE("a list of indices is read with its comments, and refused by line", "[
   CHECK_THROWS_AS(readIndices(folder / "missing.txt"), InputError);
 }
 
-TEST_CASE("what a scene gets wrong is named with line and column", "[scene][error]") {
+TEST_CASE("errors in a scene are named with line and column", "[scene][error]") {
   const std::string object = "[[object]]\n" + kTriangleKeys;
   checkRefused("[convert]\nsize = 3\n", ":2:1:", "unknown key 'size' in [convert]");
   checkRefused("colour = 1\n", ":1:1:", "unknown key 'colour'");

@@ -8,7 +8,7 @@
 
 namespace vox::test {
 
-/// A scene of these meshes: "object 1", "object 2" ...
+/// A scene with an object for each mesh, named "object 1", "object 2" ...
 inline Scene sceneOf(std::vector<PolygonMesh> meshes) {
   Scene scene;
   for (PolygonMesh& mesh : meshes) {

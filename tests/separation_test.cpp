@@ -20,14 +20,14 @@ using openvdb::MaskTree;
 
 namespace {
 
-/// A shape in voxels and the surface it becomes when its faces fit into one.
+/// The voxels of a shape, and its surface of faces that fit into a voxel.
 struct Case {
   MaskTree voxels;
   PolygonMesh mesh;
   ReferenceSurface surface;
 };
 
-/// As far as control points whose faces fit into a voxel may be from the surface.
+/// Largest distance of control points from the surface, if their faces fit into a voxel.
 constexpr double kTolerance = 0.25;
 
 bool fine(const PolygonMesh& mesh) {
@@ -61,7 +61,8 @@ Case caseOf(PolygonMesh mesh, double size, std::optional<int> levels = {},
           referenceSurface(level.mesh, tolerance)};
 }
 
-/// Every n-th voxel, of those with inactive ones on both sides along some axis, or of the others.
+/// Every n-th of the thin voxels, which have inactive voxels on both sides along some axis; or of
+/// the others.
 std::vector<Coord> everyNth(const MaskTree& voxels, bool thin, std::size_t n) {
   std::vector<Coord> some;
   std::size_t i = 0;
@@ -110,9 +111,9 @@ TEST_CASE("polygon conversion leaves no tunnels", "[inspect][separation][propert
         }
 }
 
-TEST_CASE("a voxel less is a tunnel where a flood from inside gets out, and nowhere else",
+TEST_CASE("removing a voxel makes a tunnel exactly if a flood from inside gets out there",
           "[inspect][separation][property]") {
-  // The other implementation labels all of space by winding numbers.
+  // The slow implementation labels all of space by winding numbers.
   std::size_t tunnels = 0;
   std::size_t sound = 0;
   for (const PolygonMesh& shape : {test::torusGrid(8, 6), test::dodecahedron()}) {
@@ -141,7 +142,7 @@ TEST_CASE("a voxel less is a tunnel where a flood from inside gets out, and nowh
   CHECK(sound > 2);
 }
 
-TEST_CASE("any voxel less of a thin plane is a tunnel, away from its rim",
+TEST_CASE("removing any voxel of a thin plane, away from its rim, makes a tunnel",
           "[inspect][separation]") {
   PolygonMesh plane;
   plane.points = {{-9.6, -9.6, 0.2}, {9.4, -9.6, 0.2}, {9.4, 9.4, 0.2}, {-9.6, 9.4, 0.2}};
@@ -165,9 +166,8 @@ TEST_CASE("any voxel less of a thin plane is a tunnel, away from its rim",
   }
 }
 
-TEST_CASE("polygons that stop here and there meet where their corners do",
-          "[inspect][separation]") {
-  // Were there gaps, the steps beside them would not count, and no tunnel would be found.
+TEST_CASE("polygons of different depths meet without gaps", "[inspect][separation]") {
+  // If there were gaps, steps through them would not cross the surface: no tunnel would be found.
   const StopRule until = {.diameter = 4, .angle = 8};
   PolygonMesh mesh = test::dodecahedron();
   for (Vec3d& p : mesh.points) p *= 9.3;
@@ -196,7 +196,7 @@ TEST_CASE("polygons that stop here and there meet where their corners do",
 }
 
 TEST_CASE("one-sided surfaces have tunnels, too", "[inspect][separation]") {
-  // Preparation doubles the sheet; its halves lie at one place.
+  // Preparation doubles the sheet; both sides lie at the same place.
   const Case made = caseOf(test::moebius(12), 25, 0);
   CHECK(findTunnels(made.voxels, made.surface, Separation::k6).tunnels == 0);
   std::size_t found = 0;

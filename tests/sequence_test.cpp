@@ -40,7 +40,7 @@ TEST_CASE("several inputs are numbered from 1 as they stand", "[sequence]") {
   CHECK_THROWS_AS(framesOf({"a.obj", "b.obj"}, "##/o.vdb"), UsageError);
 }
 
-TEST_CASE("a pattern stands for the files that fit, by number", "[sequence]") {
+TEST_CASE("a pattern matches files, ordered by number", "[sequence]") {
   const test::TemporaryFolder folder;
   for (const char* name : {"m.0010.obj", "m.0002.obj", "m.10000.obj", "m.002.obj", "m.00003.obj",
                            "m.0004.ply", "m.000x.obj", "xm.0001.obj", "m.-001.obj", "m..obj"})

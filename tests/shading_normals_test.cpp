@@ -30,8 +30,8 @@ openvdb::MaskTree terrain(Height&& height) {
   return voxels;
 }
 
-/// The plain method: the height of the first voxel in the next column at either side, toward the
-/// viewer along the axis he looks along most, differenced across one column.
+/// The simple method: differences of heights across one column to each side. Heights are those of
+/// the first voxels seen along the axis that is closest to the line of sight.
 Vec3d centralDifference(const openvdb::MaskTree& voxels, const Coord& voxel, const Vec3d& view) {
   int up = 0;
   view.cwiseAbs().maxCoeff(&up);
@@ -54,8 +54,9 @@ Vec3d centralDifference(const openvdb::MaskTree& voxels, const Coord& voxel, con
   return normal.normalized();
 }
 
-/// Mean limit normal of the faces whose limit point lies in each voxel, of a mesh subdivided until
-/// its faces are smaller than voxels. Closed forms: the centroid and T1 x T2 of a face.
+/// For each voxel, the mean limit normal of the faces whose limit point lies in it. The mesh is
+/// subdivided until its faces are smaller than voxels. Limit point and normal of a face have closed
+/// forms: the centroid and T1 x T2.
 std::map<Coord, Vec3d> limitNormals(const Scene& scene, int levels, double voxelSize) {
   const PolygonMesh fine = refine(scene, levels, {}, {}).mesh;
   std::map<Coord, Vec3d> normals;
@@ -93,7 +94,7 @@ TEST_CASE("planes of any slope have the normal of the plane", "[volume][golden]"
         const Coord voxel(x, 2, static_cast<int>(std::lround(p * x + q * 2)));
         const double above = degreesBetween(normals.at(voxel, Vec3d(0, 0, 1), exact), exact);
         const double below = degreesBetween(normals.at(voxel, Vec3d(0, 0, -1), -exact), -exact);
-        // The worst rounding of heights tilts a fit over 13 columns in a row by 0.115.
+        // In the worst case, rounding of heights changes the slope over 13 columns by 0.115.
         CHECK(std::max(above, below) < 6.6);
         sum += above + below;
         count += 2;

@@ -481,7 +481,8 @@ Vec3d faceCentroid(const PolygonMesh& mesh, Index f) {
 
 bool samePoints(std::vector<Vec3d> a, std::vector<Vec3d> b, double tolerance) {
   if (a.size() != b.size()) return false;
-  // A generic direction orders both clouds alike; ties within the tolerance are searched.
+  // Both clouds are sorted along a generic direction; points within the tolerance of each other
+  // along it are searched.
   const Vec3d direction(0.5403023058681398, 0.3217505543966422, 0.7762943114830101);
   const auto less = [&](const Vec3d& p, const Vec3d& q) {
     return direction.dot(p) < direction.dot(q);

@@ -39,7 +39,8 @@ struct Shape {
 };
 const std::vector<Shape>& shapes();
 
-/// Without the faces that have an index in `gone`.
+/// The mesh without some faces.
+/// @param gone  numbers of these faces
 PolygonMesh withoutFaces(const PolygonMesh& mesh, const std::vector<Index>& gone);
 
 PolygonMesh openFan(int faces, int sides);  ///< n-gons around one boundary vertex
@@ -56,8 +57,8 @@ PolygonMesh insideOut(PolygonMesh mesh);
 /// Rotates every face and flips each with the given probability.
 PolygonMesh stirred(PolygonMesh mesh, double flips, std::uint32_t seed);
 
-/// Two meshes as one; of the second, scaled and moved, vertices and faces follow those of the
-/// first.
+/// Both meshes as one. The second is scaled and moved; its vertices and faces come after those of
+/// the first.
 PolygonMesh together(PolygonMesh a, const PolygonMesh& b, const Vec3d& shift, double scale = 1);
 
 PolygonMesh scaled(PolygonMesh mesh, double scale);  ///< about the origin
@@ -65,8 +66,8 @@ PolygonMesh scaled(PolygonMesh mesh, double scale);  ///< about the origin
 /// Scaled about the origin, then moved.
 PolygonMesh moved(PolygonMesh mesh, const Vec3d& shift, double scale = 1);
 
-/// Does one of many bad things to a mesh: flips, doubles, deletes a face, welds, collapses, moves
-/// corners to random vertices. The arrays stay valid.
+/// Damages a mesh in one of many random ways: flips, doubles or deletes a face, welds vertices,
+/// collapses an edge, moves corners to random vertices. The arrays stay valid.
 void mutate(PolygonMesh& mesh, std::mt19937& random);
 
 /// The same mesh with points and faces renumbered and faces rotated, at random.
@@ -74,16 +75,18 @@ PolygonMesh shuffled(const PolygonMesh& mesh, std::uint32_t seed);
 
 bool sameMesh(const PolygonMesh& a, const PolygonMesh& b);
 
-/// Points - edges + faces; every point is used.
+/// Points - edges + faces. Precondition: every point is used.
 std::int64_t eulerCharacteristic(const PolygonMesh& mesh);
 
-/// What keeps a mesh from being subdivided, or is a defect all the same; empty if nothing.
+/// Message about the first fault of a mesh: it cannot be subdivided, or has a defect. Empty if
+/// there is none.
 std::string faultOf(const PolygonMesh& mesh);
 
 Vec3d centroid(const std::vector<Vec3d>& points);
 Vec3d faceCentroid(const PolygonMesh& mesh, Index f);
 
-/// Corner-wise equality up to `tolerance` after sorting; for clouds whose points stand apart.
+/// Whether two clouds have the same points up to `tolerance`, in any order. The points of a cloud
+/// must be further apart than that.
 bool samePoints(std::vector<Vec3d> a, std::vector<Vec3d> b, double tolerance);
 
 }  // namespace vox::test

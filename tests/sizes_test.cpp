@@ -38,7 +38,7 @@ VertexSplit randomSplit(Points& points) {
   return split;
 }
 
-/// Largest steps over the four sides of each face that exists.
+/// PatchSteps in plain code: the largest steps along the four sides of each face that exists.
 struct PlainSteps {
   Vec3d u = Vec3d::Zero();
   Vec3d v = Vec3d::Zero();

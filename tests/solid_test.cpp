@@ -112,7 +112,7 @@ TEST_CASE("a closed object is filled beside an open one, and the open one is nam
   options.volume.openMesh = OpenMesh::kError;
   CHECK_THROWS_WITH(convert(scene, options), Contains("object 2") && Contains("--open-mesh"));
   CHECK_THROWS_AS(convert(scene, options), MeshError);
-  options.grids = std::vector{GridKind::kMask};  // has no inside to ask for
+  options.grids = std::vector{GridKind::kMask};  // needs no inside
   CHECK_NOTHROW(convert(scene, options));
 }
 

@@ -19,11 +19,11 @@ class SplineTorus {
   /// Volume inside: the integral of a polynomial over each patch, exact by Gauss' rule.
   double volume() const;
 
-  /// Distance to the surface, positive outside, of a point near it: from the nearest of a dense
-  /// sample by Newton's method.
+  /// Distance of a point near the surface from it, positive outside. Newton's method, starting from
+  /// the nearest of many samples.
   double distance(const Vec3d& point) const;
 
-  /// Normal at the point of the surface nearest to one near it.
+  /// Normal at the point of the surface nearest to `point`, which must be near the surface.
   Vec3d normalNear(const Vec3d& point) const;
 
  private:

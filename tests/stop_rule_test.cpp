@@ -4,7 +4,7 @@
 
 using namespace vox;
 
-TEST_CASE("a stop rule has the name it is found by", "[mesh]") {
+TEST_CASE("a stop rule is found by its name", "[mesh]") {
   for (const std::string name : {"voxel", "levels=0", "levels=7", "levels=30", "diameter=2.5",
                                  "angle=180", "levels=3,diameter=4,angle=5,flatness=0.1"}) {
     const auto rule = stopRuleNamed(name);
@@ -15,7 +15,7 @@ TEST_CASE("a stop rule has the name it is found by", "[mesh]") {
   CHECK(stopRuleNamed("levels=7")->levels == 7);
 }
 
-TEST_CASE("what is no stop rule is refused", "[mesh][error]") {
+TEST_CASE("invalid stop rules are refused", "[mesh][error]") {
   for (const std::string name :
        {"", "voxels", "levels", "levels=", "levels=-1", "levels=31", "levels=1.5", "levels=3x",
         "levels= 3", "levels=99999999999", "diameter=0", "diameter=inf", "angle=nan", "angle=181",
@@ -25,7 +25,7 @@ TEST_CASE("what is no stop rule is refused", "[mesh][error]") {
   }
 }
 
-TEST_CASE("of limits given twice the first to be met counts", "[mesh]") {
+TEST_CASE("of two limits of a kind, the one that is met first counts", "[mesh]") {
   CHECK(stopRuleNamed("levels=5,levels=3") == StopRule{3});
   CHECK(stopRuleNamed("diameter=2,diameter=4") == StopRule{{}, 4.0});
   CHECK(stopRuleNamed("voxel,levels=3") == StopRule{3, 1.0});

@@ -12,7 +12,7 @@ TEST_CASE("a mistyped word is answered with the nearest one", "[app]") {
   CHECK(nearest("--forced", options) == "--force");
 }
 
-TEST_CASE("a word like none of them is answered with nothing", "[app]") {
+TEST_CASE("no word is suggested if none is similar", "[app]") {
   CHECK(nearest("--temperature", {"--dim", "--grids"}).empty());
   CHECK(nearest("", {}).empty());
 }

@@ -11,7 +11,7 @@ using namespace vox;
 using Catch::Contains;
 using Histogram = std::map<std::uint64_t, std::uint64_t>;
 
-TEST_CASE("a summary counts what there is", "[inspect][golden]") {
+TEST_CASE("a summary counts all elements", "[inspect][golden]") {
   const MeshSummary prism = summarize(test::prism(5));
   CHECK(prism.points == 10);
   CHECK(prism.edges == 15);
@@ -106,7 +106,7 @@ TEST_CASE("files that are not OpenVDB are refused", "[inspect][error]") {
   CHECK_THROWS_AS(summarizeVdb(folder.write("text.vdb", "not a grid, not at all")), InputError);
 }
 
-TEST_CASE("a damaged file of ours is recognised by its hash", "[inspect][error]") {
+TEST_CASE("a damaged file of libvox is recognised by its hash", "[inspect][error]") {
   const test::TemporaryFolder folder;
   Scene scene;
   scene.objects.push_back({"cube", test::cube()});

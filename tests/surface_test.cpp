@@ -42,7 +42,8 @@ Marked mark(const SubdivisionLevel& base, const SurfaceOptions& options) {
   return mark(base, options, unwatched);
 }
 
-/// Voxels that a vertex is within a distance of being rounded to, if it is near more than one.
+/// Collects the voxels near vertices that are almost tied: within a distance of more than one
+/// voxel.
 class NearTies : public SurfaceSink {
  public:
   openvdb::MaskTree voxels;
@@ -65,7 +66,7 @@ class NearTies : public SurfaceSink {
   }
 };
 
-/// Voxels of `a` that `b` lacks; each must be one of `excuses`.
+/// Number of voxels of `a` that are not in `b`. Checks that each of them is in `excuses`.
 std::size_t differences(const openvdb::MaskTree& a, const openvdb::MaskTree& b,
                         const openvdb::MaskTree& excuses) {
   std::size_t count = 0;
@@ -141,7 +142,7 @@ TEST_CASE("the whole mesh level by level has the voxels of its submeshes, but fo
   CHECK(ties < 1000);
 }
 
-TEST_CASE("split patches fill one grid alike on any number of threads", "[pipeline][parallel]") {
+TEST_CASE("thread count never changes the voxels of split patches", "[pipeline][parallel]") {
   const SubdivisionLevel base = largeCube();
   const Marked first = mark(base, {});
   for (const int threads : {1, 2, 8}) {
@@ -165,8 +166,7 @@ TEST_CASE("a level of the whole mesh that cannot fit is refused before it is mad
                     Contains("of the whole mesh needs about") && Contains("use --localize during"));
 }
 
-TEST_CASE("the bar moves evenly while a surface is made, also when it is one submesh",
-          "[pipeline]") {
+TEST_CASE("progress advances evenly while a surface is made, also with one submesh", "[pipeline]") {
   for (const auto localize : {Localize::kBefore, Localize::kDuring}) {
     double last = 0;
     double largestStep = 0;
@@ -180,7 +180,7 @@ TEST_CASE("the bar moves evenly while a surface is made, also when it is one sub
         std::chrono::nanoseconds(0));
     progress.plan(1);
     progress.beginLast("surface");
-    // At this size most of the vertices lie in patches that are split.
+    // At this size most vertices are in patches that are split.
     onThreads(1, [&] {
       return mark(test::repairedLevel(test::cube(), 1500), {localize, 256}, progress);
     });
@@ -236,8 +236,9 @@ TEST_CASE("tasks that run out of memory at the same time end in one refusal",
 }
 
 TEST_CASE("a smooth surface takes few vertices for each voxel", "[pipeline]") {
-  // Squares of half a voxel at the finest, three voxels for two of area (6-separating): less than
-  // 4 / 1.5; patches are as fine as their largest face asks for, which may be twice as fine.
+  // The finest faces are squares of half a voxel: 4 vertices per unit of area. A 6-separating
+  // surface has about 1.5 voxels per unit of area, so there are less than 4 / 1.5 vertices per
+  // voxel. A patch is as fine as its largest face needs, which may be twice as fine as others.
   for (const double size : {40.0, 61.0, 83.0}) {
     const Marked marked = mark(test::repairedLevel(test::torusGrid(32, 16), size), {});
     const double vertices =

@@ -8,7 +8,7 @@
 
 namespace vox::test {
 
-/// A folder that is empty at first and gone at the end of the test.
+/// A folder that is empty at first; the destructor removes it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

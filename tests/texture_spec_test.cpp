@@ -18,14 +18,14 @@ TEST_CASE("the text of a texture makes the same texture again", "[texture][prope
   CHECK(parseTexture(textureText(texture)) == texture);
 }
 
-TEST_CASE("every kind stands in the list of names and has colours", "[texture]") {
+TEST_CASE("every kind is in the list of names and has colours", "[texture]") {
   const std::string names = allTextureNames();
   CHECK(names == "checker, stripes, rings, marble, noise, gradient, brick");
   for (const auto* name : {"checker", "stripes", "rings", "marble", "noise", "gradient", "brick"})
     CHECK(textureNamed(name).colors.size() >= kLeastColors);
 }
 
-TEST_CASE("parameters are taken as they are said", "[texture]") {
+TEST_CASE("parameters get the given values", "[texture]") {
   const TextureSpec texture = parseTexture(
       "marble:scale=0.2,axis=y,turbulence=3,octaves=2,seed=7,space=world,colors=0:0:0/1:0.5:0.25");
   CHECK(texture.kind == TextureKind::kMarble);
@@ -42,14 +42,14 @@ TEST_CASE("parameters are taken as they are said", "[texture]") {
 TEST_CASE("screen colours become light", "[texture][golden]") {
   CHECK(linearFromScreen(0) == 0);
   CHECK(linearFromScreen(1) == 1);
-  // Half way on the screen is about a fifth of the light; the two pieces of the curve meet.
+  // The value 0.5 is about a fifth of the light. The two pieces of the curve meet at 0.04045.
   CHECK(linearFromScreen(0.5) == Approx(0.21404).epsilon(1e-4));
   CHECK(linearFromScreen(0.0404499) == Approx(linearFromScreen(0.0404501)).epsilon(1e-4));
   const TextureSpec texture = parseTexture("checker:colors=#ff0080/#000000");
   CHECK((texture.colors[0] - Vec3d(1, 0, linearFromScreen(128 / 255.0))).norm() == 0);
 }
 
-TEST_CASE("what a texture cannot mean is refused by name", "[texture][error]") {
+TEST_CASE("invalid texture parameters are refused by name", "[texture][error]") {
   const auto [text, message] = GENERATE(table<std::string, std::string>({
       {"wood", "unknown texture 'wood'; known are checker, stripes"},
       {"", "unknown texture ''"},

@@ -42,7 +42,7 @@ TEST_CASE("noise is 0 at the lattice and within -1 and 1 between", "[texture][pr
     sum += value;
     squares += value * value;
   }
-  // No preferred sign, and it does vary: standard errors are below 0.003.
+  // The mean is 0, the variance is not; standard errors are below 0.003.
   CHECK(std::abs(sum / kPoints) < 0.015);
   CHECK(squares / kPoints > 0.03);
 }
@@ -68,7 +68,7 @@ TEST_CASE("seeds and cells make different noise", "[texture]") {
   std::set<double> values;
   for (std::uint32_t seed = 0; seed < 8; ++seed)
     for (int cell = 0; cell < 8; ++cell) values.insert(gradientNoise(p + Vec3d(cell, 0, 0), seed));
-  CHECK(values.size() > 40);  // 64 draws of some hundreds of combinations of gradients
+  CHECK(values.size() > 40);  // of 64, from some hundreds of combinations of gradients
 }
 
 TEST_CASE("octaves add detail of half the size and half the height", "[texture]") {
@@ -106,7 +106,7 @@ TEST_CASE("rings and veins repeat at unit distance and are continuous", "[textur
   CHECK(ringAt(2) == 0);
 }
 
-TEST_CASE("the share of mortar in a wall is what its joints take", "[texture][property]") {
+TEST_CASE("the share of mortar in a wall is that of its joints", "[texture][property]") {
   // Joints of thickness m heights of 1/3 on all sides of bricks 1 x 1/2 x 1/3.
   const double m = 0.3;
   const double brick = (1 - m / 3) * (1 - m * 2 / 3) * (1 - m);
@@ -140,7 +140,7 @@ TEST_CASE("a gradient runs from the first to the last colour over the object", "
   CHECK(said.colorAt(Vec3d(0, 0, 0)) == parseTexture("gradient").colors.back());
 }
 
-TEST_CASE("scale is the size of the pattern, an eighth of the longest side if not said",
+TEST_CASE("scale is the size of the pattern, by default an eighth of the longest side",
           "[texture]") {
   const SolidTexture said(parseTexture("stripes:scale=3,axis=x"), unitBox());
   CHECK(said.colorAt(Vec3d(2.9, 0, 0)) == said.colorAt(Vec3d(0.1, 0, 0)));
@@ -150,7 +150,7 @@ TEST_CASE("scale is the size of the pattern, an eighth of the longest side if no
   CHECK(unsaid.colorAt(Vec3d(0.126, 0, 0)) != unsaid.colorAt(Vec3d(0.001, 0, 0)));
 }
 
-TEST_CASE("colours lie within 0 and 1 anywhere, whatever the place", "[texture][property]") {
+TEST_CASE("colours lie within 0 and 1 at any position", "[texture][property]") {
   std::mt19937 random(6);
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const auto* kind :

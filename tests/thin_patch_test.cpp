@@ -32,7 +32,7 @@ Vec3d vertexOf(const Patch& patch, std::int64_t i, std::int64_t j, std::int64_t 
   return PatchWeights(j, n)(row[0], row[1], row[2]);
 }
 
-/// The vertices around the strip between rows i and j.
+/// The vertices of the walk around the strip between rows i and j.
 std::vector<Vec3d> walkAround(const Patch& patch, std::int64_t i, std::int64_t j, std::int64_t n) {
   std::vector<Vec3d> walk;
   for (std::int64_t v = 0; v < n; ++v) walk.push_back(vertexOf(patch, i, v, n));
@@ -42,11 +42,11 @@ std::vector<Vec3d> walkAround(const Patch& patch, std::int64_t i, std::int64_t j
   return walk;
 }
 
-/// The longest side (L-inf) of the triangles that fill a polygon, at its least over all ways to cut
-/// it up, by trying them.
+/// Length (L-inf) of the longest side of the triangles that fill a polygon, for the best way to cut
+/// it. Tries all ways, by dynamic programming.
 double leastLongestSide(const std::vector<Vec3d>& polygon) {
   const std::size_t n = polygon.size();
-  std::vector<double> best(n * n, 0.0);  // of the part from i to j, cut off along that side
+  std::vector<double> best(n * n, 0.0);  // for the part from i to j, with the side from j to i
   const auto side = [&](std::size_t i, std::size_t j) {
     return (polygon[i] - polygon[j]).cwiseAbs().maxCoeff();
   };
@@ -62,7 +62,7 @@ double leastLongestSide(const std::vector<Vec3d>& polygon) {
   return best[n - 1];
 }
 
-/// Patches around a line or a slightly bent curve, up to so wide in voxels.
+/// Random patches around a line or a slightly bent curve. Lengths and widths in voxels.
 struct RandomPatches {
   std::mt19937 random;
   double uniform(double low, double high) {
@@ -76,13 +76,13 @@ struct RandomPatches {
     const Vec3d across = uniform(0, width) * direction();
     return make([&](double u, double v) { return Vec3d(u * across + v * along); }, 0.01 * length);
   }
-  /// Rows and columns go the same way, nearly.
+  /// Rows and columns run nearly the same way.
   Patch sheared(double length, double width) {
     const Vec3d along = length * direction();
     const Vec3d across = uniform(0.2, 1) * along + uniform(0, width) * direction();
     return make([&](double u, double v) { return Vec3d(u * across + v * along); }, 0.01 * length);
   }
-  /// Beside a long thin triangle: along it out, and back.
+  /// Beside a long thin triangle: out along it, and back.
   Patch folded(double length, double width) {
     const Vec3d along = length * direction();
     const Vec3d bend = uniform(0, 2 * width) * direction();
@@ -94,7 +94,7 @@ struct RandomPatches {
         0.002 * length);
   }
 
-  /// Along a curve at places that are any quadratic function of u and v.
+  /// Along a curve, with parameters that are a random quadratic function of u and v.
   Patch along(double length, double width) {
     const Vec3d line = length * direction();
     const Vec3d turn = uniform(0, 0.5) * length * direction();
@@ -107,7 +107,7 @@ struct RandomPatches {
         },
         uniform(0, width));
   }
-  /// Bent from row to row, or along them, or both.
+  /// Bent from row to row, along the rows, or both.
   Patch bent(double length, double width) {
     const Vec3d along = length * direction();
     const Vec3d turnV = uniform(0, 1) * length * direction();
@@ -125,7 +125,7 @@ struct RandomPatches {
     const Vec3d along = length * direction();
     return make([&](double, double) { return Vec3d(uniform(-1, 1) * along); }, width);
   }
-  /// One of all these, of length 1.
+  /// One of these kinds, of length 1.
   Patch any(int which, double width) {
     switch (which) {
       case 0:
@@ -175,7 +175,7 @@ openvdb::MaskGrid marked(const SubdivisionLevel& base, SurfaceReport& report) {
   return mask;
 }
 
-/// Whether a path of inactive voxels, face to face, leads there from outside the box.
+/// Whether a path of inactive voxels, face to face, leads from outside the box to `there`.
 bool isReachedFromOutside(const openvdb::MaskGrid& mask, const openvdb::Coord& there) {
   openvdb::CoordBBox box = mask.evalActiveVoxelBoundingBox();
   box.expand(1);
@@ -286,7 +286,7 @@ TEST_CASE("strips that are not wide are called fillable, mostly", "[subdivide][p
   CHECK(missed < yes / 2);
 }
 
-TEST_CASE("a patch is the same thin one from all of its sides", "[subdivide][property]") {
+TEST_CASE("a patch gives the same thin patch from all of its sides", "[subdivide][property]") {
   RandomPatches patches{std::mt19937(10)};
   int thin = 0;
   for (int trial = 0; trial < 400; ++trial) {
@@ -333,7 +333,7 @@ TEST_CASE("a patch as wide as long, one of few levels and one at a free boundary
   CHECK_FALSE(isThin(open));
 }
 
-TEST_CASE("a patch of which part turns back has fewer vertices in parts, at their own depths",
+TEST_CASE("a patch that turns back in part has fewer vertices if split, each part at its own depth",
           "[subdivide][property]") {
   RandomPatches patches{std::mt19937(9)};
   int split = 0;
@@ -365,14 +365,14 @@ TEST_CASE("a patch of which part turns back has fewer vertices in parts, at thei
     if (parts == 1) {
       CHECK(vertices == thin->vertices());
     } else {
-      CHECK(parts % 3 == 1);  // each split puts four in the place of one
+      CHECK(parts % 3 == 1);  // each split replaces one part by four
       ++split;
     }
   }
   CHECK(split > 10);
 }
 
-TEST_CASE("the outermost vertices do for a patch without width", "[subdivide]") {
+TEST_CASE("the outermost vertices are enough for a patch without width", "[subdivide]") {
   Patch patch;
   for (std::size_t u = 0; u < 3; ++u)
     for (std::size_t v = 0; v < 3; ++v)

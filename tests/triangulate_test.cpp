@@ -41,8 +41,8 @@ Vec3d areaVector(const std::vector<Vec3d>& polygon) {
   return area;
 }
 
-/// Whether the triangles are a disk with the polygon as its rim: n - 2 of them, each side used once
-/// in the polygon's direction, each diagonal once in both.
+/// Whether the triangles form a disk with the polygon as its rim: there are n - 2; each side of the
+/// polygon is used once, in its direction; each diagonal is used once in both directions.
 bool isDisk(const Triangles& triangles, std::size_t n) {
   if (triangles.size() != n - 2) return false;
   std::map<std::pair<Index, Index>, int> uses;
@@ -55,8 +55,8 @@ bool isDisk(const Triangles& triangles, std::size_t n) {
   });
 }
 
-/// Area of the triangles seen along the polygon's normal, each counted positive, over the
-/// polygon's.
+/// Sum of the absolute areas of the triangles, projected along the normal of the polygon, divided
+/// by the area of the polygon.
 double coverage(const std::vector<Vec3d>& polygon, const Triangles& triangles) {
   const Vec3d area = areaVector(polygon);
   double covered = 0;
@@ -77,7 +77,7 @@ std::vector<Vec3d> star(std::size_t n, std::mt19937& random) {
   return corners;
 }
 
-/// A band wound around its end, out along one edge and back along the other.
+/// The outline of a spiral band: out along one edge and back along the other.
 std::vector<Vec3d> spiral(std::size_t n) {
   std::vector<Vec3d> corners;
   const std::size_t half = n / 2;
@@ -104,8 +104,8 @@ std::vector<Vec3d> comb(std::size_t n) {
   return corners;
 }
 
-/// Bends a polygon of the plane z = 0 into space, in waves and dents: less the more corners there
-/// are, so that it stays simple seen along its normal.
+/// Bends a polygon of the plane z = 0 into space, in waves and dents. These are smaller for more
+/// corners, so that the polygon stays simple in the projection along its normal.
 void bend(std::vector<Vec3d>& corners, std::mt19937& random) {
   double size = 0;
   for (const Vec3d& corner : corners) size = std::max(size, corner.norm());
@@ -228,7 +228,7 @@ TEST_CASE("ears are clipped all around, not in a fan", "[voxelize][triangulate]"
   CHECK(sides(triangulated(corners).triangles) < sides(fan) / 2);
 }
 
-TEST_CASE("what has no ears becomes a fan and is counted", "[voxelize][triangulate]") {
+TEST_CASE("a polygon without ears becomes a fan and is counted", "[voxelize][triangulate]") {
   const Vec3d a(0, 0, 0);
   const Vec3d b(1, 0, 0);
   const Vec3d c(0, 1, 0);

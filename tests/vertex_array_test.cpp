@@ -20,7 +20,7 @@ using namespace vox;
 
 namespace {
 
-/// Where the limit point of vertex (i, j) of n x m descendants is.
+/// The limit normal at vertex (i, j) of n x m descendants.
 Vec3d limitNormal(const Patch& patch, std::int64_t i, std::int64_t n, std::int64_t j,
                   std::int64_t m) {
   return LimitNormals(patch, SplinePlace::ofVertex(i, n)).at(SplinePlace::ofVertex(j, m));
@@ -65,7 +65,7 @@ std::vector<PolygonMesh> closedShapes() {
           test::prism(5), test::dodecahedron(), test::torusGrid(6, 5)};
 }
 
-/// Points and normals of the faces of a mesh, the nearest of which can be asked for.
+/// Centroids and normals of the faces of a mesh, with a search for the nearest ones.
 class FaceNormals {
  public:
   explicit FaceNormals(const PolygonMesh& mesh) {
@@ -84,7 +84,7 @@ class FaceNormals {
       return (a.centroid - p).squaredNorm() < (b.centroid - p).squaredNorm();
     });
   }
-  /// The nearest ones, the first of all in front.
+  /// The nearest faces, sorted by distance.
   std::vector<Face> nearest(const Vec3d& p, std::size_t count) const {
     std::vector<Face> near(count);
     std::partial_sort_copy(faces_.begin(), faces_.end(), near.begin(), near.end(),
@@ -137,7 +137,7 @@ TEST_CASE("the normal of any vertex is that of its V-face", "[subdivide][normals
     });
 }
 
-TEST_CASE("normals are what faces six levels deeper turn to", "[subdivide][normals][property]") {
+TEST_CASE("normals agree with those of faces six levels deeper", "[subdivide][normals][property]") {
   for (const PolygonMesh& mesh : {test::tetrahedron(), test::cube(), test::prism(5)}) {
     const SubdivisionLevel base = test::repairedLevel(mesh);
     const FaceNormals faces(subdivide(base, 7).mesh);
@@ -149,7 +149,7 @@ TEST_CASE("normals are what faces six levels deeper turn to", "[subdivide][norma
       const auto around = faces.nearest(limit, 9);
       CHECK((around[0].centroid - limit).norm() < 1e-12);
       CHECK(degrees(array.normalAt(0, 0), around[0].normal) < 1e-8);
-      // Neighbours turn by curvature times their distance.
+      // Normals of neighbours differ by about curvature times distance.
       for (const auto& face : around) CHECK(degrees(array.normalAt(0, 0), face.normal) < 3);
     });
   }
@@ -171,7 +171,7 @@ TEST_CASE("rows of normals have the bits of single ones", "[subdivide][normals]"
     });
 }
 
-TEST_CASE("whether normals are wanted never shows in points", "[subdivide][normals]") {
+TEST_CASE("normals never change points", "[subdivide][normals]") {
   for (const auto* shapes : {&test::shapes(), &test::openShapes()})
     for (const auto& shape : *shapes) {
       CAPTURE(shape.name);
@@ -189,7 +189,8 @@ TEST_CASE("whether normals are wanted never shows in points", "[subdivide][norma
     }
 }
 
-TEST_CASE("normals on a boundary are those that rows beside it come to", "[subdivide][normals]") {
+TEST_CASE("normals on a boundary are the limit of normals in the rows beside it",
+          "[subdivide][normals]") {
   constexpr int kDeeper = 7;
   std::size_t tried = 0;
   for (const PolygonMesh& mesh :
@@ -210,7 +211,7 @@ TEST_CASE("normals on a boundary are those that rows beside it come to", "[subdi
           const Vec3d near = acrossR ? deeper.normalAt(far, 0) + deeper.normalAt(far - 1, 0)
                                      : deeper.normalAt(0, far) + deeper.normalAt(0, far - 1);
           if (i == 0 && !vertex.regular && (!vertex.quadVFace || vertex.corner)) {
-            // Beside a block of one point: as in its plane.
+            // Beside a block of one point, the normal is that of the point.
             CHECK((normals[0] - array.normalAt(0, 0)).norm() < 1e-9);
             continue;
           }
@@ -235,7 +236,7 @@ TEST_CASE("a flat sheet has one normal, missing faces or not", "[subdivide][norm
                   [&](const LevelOneVertex& vertex, const auto&, auto&) {
                     for (const int k : {0, 1, 2}) {
                       const VertexArray array = arrayOf(vertex, k);
-                      // Of an array without all its faces, what is next to them.
+                      // Some faces are missing: only the corner next to F is checked.
                       const Vec3d corner = array.normalAt(array.sizeU() - 1, array.sizeV() - 1);
                       CHECK((corner - normal).norm() < 1e-12);
                       if (!vertex.whole()) continue;
@@ -247,8 +248,7 @@ TEST_CASE("a flat sheet has one normal, missing faces or not", "[subdivide][norm
   }
 }
 
-TEST_CASE("at a free boundary, normals keep near those of the faces that are there",
-          "[subdivide][normals]") {
+TEST_CASE("at a free boundary, normals are close to those of the faces", "[subdivide][normals]") {
   PolygonMesh mesh = test::sheet(4, 3);
   const SubdivisionLevel base = test::repairedLevel(mesh, BoundaryRule::kFree);
   const FaceNormals faces(subdivide(base, 7).mesh);
@@ -259,7 +259,7 @@ TEST_CASE("at a free boundary, normals keep near those of the faces that are the
   });
 }
 
-TEST_CASE("what has no tangent plane has no normal", "[subdivide][normals]") {
+TEST_CASE("a vertex without a tangent plane has no normal", "[subdivide][normals]") {
   Patch patch;
   for (auto& row : patch.points) row.fill(Vec3d(0.1, 0.7, 1e6 / 3));
   CHECK(limitNormal(patch, 0, 1, 0, 1).isZero(0));

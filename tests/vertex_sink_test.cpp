@@ -87,8 +87,8 @@ TEST_CASE("larger faces do leak", "[voxelize][property]") {
 
 TEST_CASE("rounding keeps the corners of a face of span one within a unit cube",
           "[voxelize][property]") {
-  // The heart of the guarantee: the rounded face then meets a step between voxel centres only at
-  // active voxels. Exact in binary, ties included.
+  // The core of the guarantee: so the rounded face meets a step between voxel centres only at
+  // active voxels. All numbers are exact, so ties are included.
   std::mt19937 random(4);
   std::uniform_int_distribution<int> coordinate(-64, 64);
   std::uniform_int_distribution<int> step(-16, 16);
@@ -103,7 +103,8 @@ TEST_CASE("rounding keeps the corners of a face of span one within a unit cube",
 TEST_CASE(
     "a grid line that crosses a triangle of L-inf edges up to one voxel meets one of its voxels",
     "[voxelize][property]") {
-  // The paper's lemma (section 5), for the L-inf norm, in integers of 1/16 voxel: exact, ties too.
+  // The lemma of the paper (section 5) for the L-inf norm. Integers of 1/16 voxel: exact, with
+  // ties.
   constexpr long kUnit = 16;
   std::mt19937 random(5);
   std::uniform_int_distribution<long> anywhere(-3 * kUnit, 3 * kUnit);
@@ -114,7 +115,7 @@ TEST_CASE(
   };
   std::size_t crossings = 0;
   for (int i = 0; i < 1000000; ++i) {
-    // Two coordinates across the grid line; the third does not matter to the lemma.
+    // Two coordinates, across the grid line; the lemma does not use the third.
     std::array<std::array<long, 2>, 3> t;
     for (auto& x : t[0]) x = anywhere(random);
     for (std::size_t k : {0U, 1U}) {
@@ -155,7 +156,7 @@ std::vector<Vec3d> scattered(std::size_t count, double spread, std::uint32_t see
 }  // namespace
 
 TEST_CASE("the voxels of points are those that hold one", "[voxelize]") {
-  // The wider apart, the more memory a point takes.
+  // Points that are further apart take more memory each.
   for (const auto& [spread, count] : {std::pair(2.0, 20000), std::pair(60.0, 20000),
                                       std::pair(5000.0, 5000), std::pair(1e8, 200)}) {
     CAPTURE(spread);
@@ -217,7 +218,7 @@ std::vector<Vec3d> descendants(const Patch& patch, int k) {
   return vertices;
 }
 
-/// Whether a position is within `distance` of another voxel.
+/// Whether a position is within `distance` of a second voxel.
 bool nearlyTied(const Vec3d& position, double distance) {
   for (const double x : position)
     if (std::abs(x + 0.5 - std::round(x + 0.5)) <= distance) return true;
@@ -243,7 +244,7 @@ TEST_CASE("a patch marks the voxels of its descendants, up to rounding ties",
     const std::vector<Vec3d> vertices = descendants(patch, k);
     CHECK(sink.vertices()[static_cast<std::size_t>(k)] == vertices.size());
     const auto expected = treeOf(vertices);
-    // Whatever differs must be the voxel of a vertex that nearly has another one.
+    // A voxel that differs must be near a vertex that is almost tied between two voxels.
     openvdb::MaskTree excusable;
     for (const Vec3d& p : vertices)
       if (nearlyTied(p, kTileError))

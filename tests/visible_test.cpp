@@ -34,7 +34,7 @@ std::vector<openvdb::GridBase::Ptr> listOf(std::vector<openvdb::GridBase::Ptr> g
 
 }  // namespace
 
-TEST_CASE("of several grids the most telling is shown", "[inspect]") {
+TEST_CASE("of several grids, the most informative one is shown", "[inspect]") {
   const auto fog = gridOf<openvdb::FloatGrid>("other", 2);
   const auto density = gridOf<openvdb::FloatGrid>("density", 1);
   density->tree().setValueOn(Coord(9, 9, 9), 1);
@@ -83,7 +83,7 @@ TEST_CASE("normals and colours are found by either name where they lie alike", "
   CHECK_FALSE(visibleGrids(listOf({mask, normals}), {}).normals);
 }
 
-TEST_CASE("what cannot be shown is refused by name", "[inspect][error]") {
+TEST_CASE("grids that cannot be shown are refused by name", "[inspect][error]") {
   const auto look = [](std::vector<openvdb::GridBase::Ptr> grids, const std::string& name = "") {
     return visibleGrids(grids, {name, {}});
   };

@@ -45,7 +45,7 @@ std::vector<openvdb::Coord> voxelsOf(const Conversion& conversion) {
 
 }  // namespace
 
-TEST_CASE("what is said first goes before what is said second, option by option", "[volume]") {
+TEST_CASE("the first options win over the second, option by option", "[volume]") {
   VolumeOptions first;
   VolumeOptions second;
   first.gain = 2;
@@ -63,7 +63,7 @@ TEST_CASE("what is said first goes before what is said second, option by option"
   CHECK_FALSE(all.fill.has_value());
 }
 
-TEST_CASE("turning what points up is a rotation, and turns back", "[volume]") {
+TEST_CASE("the turn of the up axis is a rotation, and can be undone", "[volume]") {
   for (const Turn turn : {Turn::kNoTurn, Turn::kYToZ, Turn::kZToY}) {
     const GridTransform transform{0.5, turn};
     const Vec3d p(1, 2, 3);
@@ -78,7 +78,7 @@ TEST_CASE("turning what points up is a rotation, and turns back", "[volume]") {
   }
 }
 
-TEST_CASE("nothing is turned unless the input and the target disagree on what is up", "[volume]") {
+TEST_CASE("nothing is turned unless the up axes of input and target differ", "[volume]") {
   CHECK(turnFor({}, Target::kBlender) == Turn::kNoTurn);
   CHECK(turnFor(UpAxis::kY, Target::kBlender) == Turn::kYToZ);
   CHECK(turnFor(UpAxis::kZ, Target::kBlender) == Turn::kNoTurn);
@@ -98,7 +98,7 @@ TEST_CASE("an input whose y axis points up gives the voxels of the input turned"
   CHECK(voxelsOf(turned) != voxelsOf(convert(pyramidScene(), coarse())));
 }
 
-TEST_CASE("compression changes the size of a file, not what is in it", "[volume]") {
+TEST_CASE("compression changes the size of a file, not its content", "[volume]") {
   openvdb::initialize();
   const auto grid = openvdb::FloatGrid::create();
   for (int i = 0; i < 20000; ++i)
@@ -119,7 +119,7 @@ TEST_CASE("compression changes the size of a file, not what is in it", "[volume]
   CHECK(sizes[1] < sizes[2] / 2);
 }
 
-TEST_CASE("half floats are read back as floats, near the same", "[volume]") {
+TEST_CASE("half floats are read back as nearly equal floats", "[volume]") {
   ConvertOptions options = coarse();
   options.volume.gain = 1.0 / 3;
   options.volume.compression = Compression::kPlain;

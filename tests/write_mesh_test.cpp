@@ -23,7 +23,7 @@ std::string written(const PolygonMesh& mesh, MeshFormat format) {
   return out.str();
 }
 
-// A triangle and a pentagon whose positions no short decimal fits.
+// A triangle and a pentagon with positions that have no short decimal form.
 PolygonMesh awkwardMesh() {
   PolygonMesh mesh;
   mesh.points = {{0.1, 1e-308, 123456789.123456789},

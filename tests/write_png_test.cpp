@@ -18,7 +18,7 @@ std::string pngOf(const Image& image) {
   return stream.str();
 }
 
-/// Pixels as libpng reads them.
+/// The pixels of a PNG, read by libpng.
 Image readPng(const std::string& bytes) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;

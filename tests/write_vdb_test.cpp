@@ -27,7 +27,7 @@ std::vector<openvdb::GridBase::Ptr> someGrids(int value) {
   return {density, mask};
 }
 
-/// More leaves than are written at a time, and values inside and outside that are not active.
+/// Grids with more leaves than are written at a time, and with values of inactive voxels.
 std::vector<openvdb::GridBase::Ptr> gridsOfManyLeaves() {
   constexpr int kSide = 18;  // leaves
   const openvdb::Vec3s flat(0, 0, 1);
@@ -35,7 +35,7 @@ std::vector<openvdb::GridBase::Ptr> gridsOfManyLeaves() {
   auto distance = openvdb::FloatGrid::create(3);
   auto half = openvdb::FloatGrid::create(0);
   auto normal = openvdb::Vec3SGrid::create(openvdb::Vec3s(0, 0, 0));
-  auto id = openvdb::Int32Grid::create(-1);  // of a type that is nothing special
+  auto id = openvdb::Int32Grid::create(-1);  // a type without special treatment
   for (int i = 0; i < kSide * kSide * kSide; ++i) {
     const openvdb::Coord at(8 * (i / kSide / kSide) + i % 8, 8 * (i / kSide % kSide) - 50,
                             8 * (i % kSide));
@@ -96,7 +96,7 @@ TEST_CASE("OpenVDB reads back every voxel and the UUID", "[io]") {
   CHECK(mask->tree().isValueOn({1, 2, 3}));
 }
 
-TEST_CASE("grids come out in the bytes that OpenVDB writes by itself", "[io][parallel]") {
+TEST_CASE("grids have the bytes that OpenVDB alone would write", "[io][parallel]") {
   openvdb::initialize();
   const auto withoutUuid = [](std::string bytes) { return bytes.replace(21, 36, 36, '-'); };
   for (const auto compression : {Compression::kBlosc, Compression::kZip, Compression::kPlain})
@@ -126,12 +126,12 @@ TEST_CASE("memory that runs out while leaves are written is an error", "[io][err
   auto full = openvdb::Vec3SGrid::create();
   full->tree().denseFill({{0, 0, 0}, {55, 39, 39}}, {1, 2, 3});
   const std::vector<openvdb::GridBase::Ptr> grid = {full};
-  constexpr std::size_t kLarge = 8192;  // more than a leaf: buffers for many of them
+  constexpr std::size_t kLarge = 8192;  // larger than a leaf: only buffers for many leaves
   bool failed = true;
   int failures = 0;
   for (int n = 0; failed; ++n) {
     std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
-    stream.str(std::string(1 << 22, ' '));  // needs no more
+    stream.str(std::string(1 << 22, ' '));  // so that the stream itself does not allocate
     bool threw = false;
     {
       const test::FailingAllocation allocation(n, kLarge);

@@ -1,7 +1,6 @@
-// In-process timings: of the stages on a generated torus grid, beside CGAL's Doo-Sabin in the same
-// run, of the engine, of files, of pictures, and of whole conversions of every generated mesh.
-// `vox_bench [MESH...]` adds mesh files to the engine's; --benchmark_format=json prints JSON; see
-// --help for more.
+// In-process timings: the stages on a generated torus grid, with CGAL's Doo-Sabin in the same run;
+// the engine; files; pictures; and whole conversions of every generated mesh. `vox_bench [MESH...]`
+// runs the engine on mesh files, too; --benchmark_format=json prints JSON; see --help for more.
 
 #include "apps/bench/engine_bench.h"
 #include "apps/bench/file_bench.h"
@@ -76,7 +75,7 @@ void cgalDooSabin(benchmark::State& state) {
 BENCHMARK(cgalDooSabin)->Unit(benchmark::kMillisecond)->UseRealTime();
 #endif
 
-/// From mesh to grid, in memory; voxels/s is to be held against that of the torus.
+/// From mesh to grid, in memory. Compare voxels/s with that of the torus.
 void wholeConversion(benchmark::State& state, const bench::Input& input) {
   Scene scene;
   scene.objects.push_back({std::string(input.name), input.make()});
@@ -107,7 +106,7 @@ void registerConversions() {
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  // What Google Benchmark leaves are mesh files, unless it looks like an option of its.
+  // Arguments that Google Benchmark does not take are mesh files, unless they look like options.
   std::vector<std::string> meshFiles;
   for (int i = 1; i < argc; ++i) {
     if (argv[i][0] == '-' && benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -3,7 +3,7 @@
 namespace vox::bench {
 namespace {
 
-/// One more run, unless an earlier one did not succeed.
+/// Runs the program of a side once and, if that succeeds, appends its values.
 void runOnce(Side& side, const Limits& limits) {
   side.last = runProcess(side.program.command, limits);
   if (!side.ok()) return;
@@ -13,7 +13,7 @@ void runOnce(Side& side, const Limits& limits) {
   side.voxels = voxelsIn(side.last.output);
 }
 
-/// Runs the sides in turn.
+/// Runs the programs of the sides in turn. A program that has failed is not run again.
 void runInTurn(const std::string& name, const std::vector<Side*>& sides, int runs,
                const Limits& limits, const Progress& progress) {
   for (int run = 1; run <= runs; ++run)

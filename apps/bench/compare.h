@@ -11,25 +11,25 @@
 
 namespace vox::bench {
 
-/// A program under the name it has in tables.
+/// A program, and its name in tables.
 struct Program {
   std::string name;
   std::vector<std::string> command;
 };
 
-/// What the runs of one program gave; values of run i stand at i.
+/// Results of the runs of one program; index i is successful run i.
 struct Side {
   Program program;
   ProcessRun last = {};
   std::vector<double> wallSeconds = {};
   std::vector<double> cpuSeconds = {};
   std::vector<double> peakBytes = {};
-  std::optional<std::uint64_t> voxels = {};  ///< as it says
+  std::optional<std::uint64_t> voxels = {};  ///< number of active voxels that it printed
 
   bool ok() const { return last.outcome == Outcome::kOk; }
 };
 
-/// Two programs in turn. Ratios are B / A: above 1, B takes more.
+/// Results of two programs that were run in turn. Ratios are B / A: above 1, B takes more.
 struct Comparison {
   std::string name;
   Side a;
@@ -38,23 +38,25 @@ struct Comparison {
   std::vector<double> wallRatios() const { return ratios(a.wallSeconds, b.wallSeconds); }
   std::vector<double> cpuRatios() const { return ratios(a.cpuSeconds, b.cpuSeconds); }
   std::vector<double> peakRatios() const { return ratios(a.peakBytes, b.peakBytes); }
-  /// Of CPU time per voxel; empty unless both say how many voxels they made.
+  /// Ratios of CPU time per voxel; empty unless both programs printed a number of voxels.
   std::vector<double> cpuPerVoxelRatios() const;
 };
 
-/// Hears what is about to run: "NAME: PROGRAM, run 2 of 5".
+/// Called before each run, with a line such as "NAME: PROGRAM, run 2 of 5".
 using Progress = std::function<void(const std::string&)>;
 
-/// Runs A B A B ..., so that whatever slows the machine down meets both. A program that does not
-/// succeed is not run again; the other one goes on.
+/// Runs A B A B ..., so that other load of the machine affects both alike. A program that fails is
+/// not run again; the other one goes on.
+/// @throws Interrupted  as runProcess
 Comparison compare(const std::string& name, const Program& a, const Program& b, int pairs,
                    const Limits& limits, const Progress& progress);
 
-/// Runs of programs in turn: A B C A B C ... Those that do not succeed are not run again.
+/// Runs several programs in turn: A B C A B C ... A program that fails is not run again.
+/// @return one side per program
 std::vector<Side> measureInTurn(const std::string& name, const std::vector<Program>& programs,
                                 int runs, const Limits& limits, const Progress& progress);
 
-/// One program alone.
+/// Runs one program several times.
 Side measure(const Program& program, int runs, const Limits& limits, const Progress& progress);
 
 }  // namespace vox::bench

@@ -10,7 +10,7 @@
 namespace vox::bench {
 namespace {
 
-/// A program of the contest, and the name of what makes the same of a mesh with vox.
+/// A program of the contest, and the name of the vox contender that makes the same grid.
 struct Entry {
   Program program;
   std::string against = {};
@@ -32,8 +32,8 @@ MeshFacts factsOf(const Tools& tools, const std::filesystem::path& mesh) {
   return result;
 }
 
-/// Levels at which faces measure some voxels: those of a sphere of as many voxels across, say 3 d^2
-/// of them, would be of 6.
+/// Number of subdivision levels after which faces are a few voxels in size: at least dim^2 / 2
+/// faces. (A sphere has about 3 dim^2 voxels: 6 voxels per face.)
 int levelsFor(const MeshFacts& facts, int dim) {
   double faces = facts.faces;
   int levels = 0;
@@ -81,14 +81,14 @@ class Inputs {
     };
   }
 
-  /// The file that a program writes.
+  /// Name of the file that a program writes.
   std::string output(const std::string& program) const {
     std::string name = program;
     std::replace(name.begin(), name.end(), ' ', '_');
     return (folder_ / (name + ".vdb")).string();
   }
 
-  /// Writes what programs read; its time is nobody's.
+  /// Writes the files that programs read. This time is not counted.
   void prepare(int dim) const {
     runProcess({tools_.vox.string(), "subdivide", mesh_.string(), "--levels",
                 std::to_string(levelsFor(facts_, dim)), "-o", refined(dim).string()},
@@ -120,7 +120,7 @@ class Inputs {
   MeshFacts facts_;
 };
 
-/// Looks at the file of a program, and takes it away.
+/// Facts about the file that a program has written; removes the file.
 Output takeOutput(const Tools& tools, const std::filesystem::path& file) {
   Output output;
   if (!std::filesystem::exists(file)) return output;

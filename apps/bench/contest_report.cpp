@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMiB = 1024.0 * 1024;
 
-/// Three digits: 0.0361, 12.4, 1234.
+/// The number with three digits: 0.0361, 12.4, 1234.
 std::string text(double value) {
   std::ostringstream out;
   if (value >= 100)
@@ -28,7 +28,7 @@ const Side* sideOf(const Contest& contest, const std::string& name, std::size_t 
   return nullptr;
 }
 
-/// Value and ratio as two cells.
+/// Two cells of a table: the median, and its ratio to the median of vox.
 std::string cells(const std::vector<double>& values, double unit,
                   const std::vector<double>* ofVox) {
   std::string row = " " + text(median(values) / unit) + " |";

@@ -9,14 +9,14 @@
 
 namespace vox::bench {
 
-/// A Markdown table, medians: a row for each contender at each resolution. Ratios are those to what
-/// vox takes for the same.
+/// A Markdown table of medians: a row for each contender at each resolution. Ratios are to the vox
+/// contender that makes the same grid.
 std::string markdownOf(const Contest& contest);
 
-/// The same numbers and the commands that gave them. Seconds and bytes; null where there is none.
+/// The same numbers with the commands. Seconds and bytes; null if there is no value.
 nlohmann::ordered_json jsonOf(const Contest& contest);
 
-/// Wall time, and peak memory, against the resolution.
+/// Plots of wall time and of peak memory over the resolution.
 Plot timePlot(const Contest& contest);
 Plot memoryPlot(const Contest& contest);
 

@@ -1,10 +1,10 @@
-// The engine alone, from a prepared mesh to a finished grid in memory, beside its parts:
-//   evaluation  the same vertices, their coordinates only added up
-//   marking     these marked in a brick and packed into bits, which go nowhere
-//   engine      all of it
-//   nodes       the finished grid's nodes once more, copied by OpenVDB: what the grid costs at
-//   least normals     grid `normal` of the finished grid
-// Manual times leave out how long it takes to free a grid again.
+// The engine alone, from a prepared mesh to a finished grid in memory, and its parts:
+//   - evaluation: the vertices of the engine; their coordinates are only summed;
+//   - marking: the vertices are marked in a brick and packed into bits, which are dropped;
+//   - engine: all of it;
+//   - nodes: a copy of the nodes of the finished grid by OpenVDB, a lower bound of its cost;
+//   - normals: grid `normal` of the finished grid.
+// Times do not count the freeing of grids.
 
 #include "apps/bench/engine_bench.h"
 
@@ -42,7 +42,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A mesh as the engine gets it, at so many voxels along its longest side.
+/// The mesh as the engine gets it: prepared, in index space, `dim` voxels along its longest side.
 SubdivisionLevel preparedAt(const PolygonMesh& mesh, int dim) {
   Scene scene;
   scene.objects.push_back({"mesh", mesh});
@@ -82,7 +82,7 @@ void engine(benchmark::State& state, const PolygonMesh& mesh) {
   state.counters["vertices/voxel"] = static_cast<double>(vertices) / static_cast<double>(voxels);
 }
 
-/// Keeps patches, and leaves the rest.
+/// Keeps patches and ignores points and curves.
 class PatchCollector : public SurfaceSink {
  public:
   std::vector<std::pair<Patch, int>> patches;
@@ -91,7 +91,7 @@ class PatchCollector : public SurfaceSink {
   void patch(const Patch& patch, int k, int) override { patches.emplace_back(patch, k); }
 };
 
-/// What the engine works on, and what it makes of it.
+/// Input and results of the engine.
 struct Work {
   SubdivisionLevel base;
   std::vector<std::pair<Patch, int>> patches;
@@ -114,7 +114,7 @@ Work workAt(const PolygonMesh& mesh, int dim) {
   return work;
 }
 
-/// Calls tile(patch, k) for all parts of a patch that are small enough.
+/// Splits a patch into parts that are small enough for a tile, and calls tile(patch, k) for each.
 template <class Tile>
 void forTiles(const Patch& patch, int k, Tile&& tile) {
   constexpr int kTile = 5;
@@ -124,7 +124,7 @@ void forTiles(const Patch& patch, int k, Tile&& tile) {
     for (const Patch& child : row) forTiles(child, k - 1, tile);
 }
 
-/// Times one call of `once` an iteration; its result is freed outside.
+/// Times one call of `once` per iteration. The time to free its result is not counted.
 template <class Once>
 void timeEach(benchmark::State& state, Once&& once) {
   onThreads(static_cast<int>(state.range(1)), [&] {
@@ -190,9 +190,10 @@ void normals(benchmark::State& state, const Work& work) {
   setRate(state, "voxels/s", work.mask->activeVoxelCount());
 }
 
-/// @param parts  also of the engine's parts
+/// Registers the benchmarks of one mesh.
+/// @param parts  whether to time the parts of the engine, too
 void registerOne(const std::string& name, const PolygonMesh& mesh, int dim, bool parts) {
-  // Made when the first of its benchmarks runs.
+  // Set when the first benchmark of the mesh runs.
   const auto work = std::make_shared<std::optional<Work>>();
   const auto add = [&](const char* what, const auto& run) {
     benchmark::RegisterBenchmark((what + ("/" + name)).c_str(), run)

@@ -7,7 +7,7 @@
 
 namespace vox::bench {
 
-/// Registers timings of the engine for every generated mesh, and for mesh files.
+/// Registers benchmarks of the engine: on all generated meshes, and on mesh files.
 void registerEngine(const std::vector<std::string>& meshFiles);
 
 }  // namespace vox::bench

@@ -1,6 +1,6 @@
-// Files beside their floors. file/write and file/read are OpenVDB's with our hash; rawWrite and
-// rawRead move the same bytes; memory/copy is what the machine moves in memory. A file that was
-// just written is read from the system's cache, in all of them.
+// Files, compared with the least possible work. file/write and file/read: OpenVDB with our hash.
+// rawWrite and rawRead: the same bytes without OpenVDB. memory/copy: the same bytes in memory. In
+// all of them a file that was just written is read from the system's cache.
 
 #include "apps/bench/file_bench.h"
 
@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kDim = 1024;
 
-/// A file of its own, gone at the end.
+/// A temporary file; removed by the destructor.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& name)
@@ -39,7 +39,7 @@ class TemporaryFile {
   std::filesystem::path path;
 };
 
-/// Grids of the generated torus; made once.
+/// Grids of the generated torus; made at the first call.
 const std::vector<openvdb::GridBase::Ptr>& gridsOf(GridKind kind) {
   static std::map<GridKind, std::vector<openvdb::GridBase::Ptr>> known;
   auto& grids = known[kind];

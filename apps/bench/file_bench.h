@@ -2,7 +2,8 @@
 
 namespace vox::bench {
 
-/// Registers timings of files and of their floors: the same bytes without OpenVDB, and memory.
+/// Registers benchmarks of files, and of their lower bounds: the same bytes without OpenVDB, and in
+/// memory.
 void registerFiles();
 
 }  // namespace vox::bench

@@ -1,5 +1,5 @@
-// Generated meshes. The spheres are an octahedron whose faces are cut into n^2 triangles each: its
-// points are the integer points with |x| + |y| + |z| = n.
+// Generated meshes. Spheres are made from an octahedron with n^2 triangles on each face; its points
+// are the integer points with |x| + |y| + |z| = n.
 
 #include "apps/bench/inputs.h"
 
@@ -31,7 +31,8 @@ void addRing(PolygonMesh& mesh, Index n, double radius, double z) {
   for (Index i = 0; i < n; ++i) mesh.points.push_back(onCircle(i, n, radius, z));
 }
 
-/// Quads between two rings of n points, given by their first; seen from outside, `low` is below.
+/// Adds n quads between two circles of n points, given by their first points. Seen from outside,
+/// `low` is below `high`.
 void joinRings(PolygonMesh& mesh, Index n, Index low, Index high) {
   for (Index i = 0; i < n; ++i) {
     const Index next = (i + 1) % n;
@@ -39,7 +40,7 @@ void joinRings(PolygonMesh& mesh, Index n, Index low, Index high) {
   }
 }
 
-/// The ring that starts at a point, as one n-gon seen from above or from below.
+/// Adds the n-gon of a circle of points, given by its first point; it faces up or down.
 void addCap(PolygonMesh& mesh, Index n, Index first, bool fromAbove) {
   Face face(n);
   std::iota(face.begin(), face.end(), first);
@@ -73,7 +74,7 @@ PolygonMesh cube() {
   return mesh;
 }
 
-/// 8 n^2 triangles over 4 n^2 + 2 points of the unit sphere.
+/// A unit sphere of 8 n^2 triangles and 4 n^2 + 2 points.
 PolygonMesh octasphere(int n) {
   PolygonMesh mesh;
   std::map<std::array<int, 3>, Index> known;
@@ -99,13 +100,13 @@ PolygonMesh octasphere(int n) {
   return mesh;
 }
 
-/// Moves the points of a unit sphere in and out a little, without symmetry.
+/// Moves the points of a unit sphere in or out a little, without symmetry.
 void addBumps(PolygonMesh& mesh) {
   for (Vec3d& p : mesh.points)
     p *= 1 + 0.05 * std::sin(7 * p.x() + 1) * std::sin(6 * p.y() + 2) * std::sin(5 * p.z() + 3);
 }
 
-/// Moves points over the unit sphere, towards +x: faces there become small, at -x large.
+/// Moves the points on the unit sphere towards +x: faces become small there, and large at -x.
 void grade(PolygonMesh& mesh) {
   for (Vec3d& p : mesh.points) p = (p.normalized() + Vec3d(0.8, 0, 0)).normalized();
 }
@@ -125,7 +126,7 @@ PolygonMesh trianglesGraded() {
   return mesh;
 }
 
-/// Random order of 0..n-1. std::shuffle may differ from one standard library to the next.
+/// The numbers 0..n-1 in random order; std::shuffle would depend on the standard library.
 std::vector<Index> randomOrder(Index n, std::mt19937& random) {
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), Index{0});
@@ -169,7 +170,7 @@ PolygonMesh prism() {
   return mesh;
 }
 
-/// 1000 x 16 x 1. Each strip is a quad above and one below; the ends are quads, too.
+/// A bar of 1000 x 16 x 1. Each strip is a quad above and a quad below; the ends are quads, too.
 PolygonMesh sliver() {
   constexpr double kLength = 1000;
   constexpr Index kStrips = 16;
@@ -189,7 +190,7 @@ PolygonMesh sliver() {
   return mesh;
 }
 
-/// Rings of hexagons, each half of the one below; at 2^-20 the sides are 9.5e-7 long.
+/// A spire of hexagons, each half as large as the one below; at 2^-20 the sides are 9.5e-7 long.
 PolygonMesh graded() {
   constexpr Index kSides = 6;
   constexpr int kHalvings = 20;
@@ -205,7 +206,7 @@ PolygonMesh graded() {
   return mesh;
 }
 
-/// Every n-gon cut into n quads around its centroid.
+/// The mesh with every n-gon cut into n quads around its centroid.
 PolygonMesh cutIntoQuads(const PolygonMesh& mesh) {
   PolygonMesh quads;
   quads.points = mesh.points;

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-/// Meshes that benchmarks run on, generated: nothing to download, the same on every machine.
+/// Generated meshes for benchmarks: nothing to download, the same on every machine.
 namespace vox::bench {
 
 /// One generated mesh. All are closed oriented manifolds of one component, wound outward.
@@ -29,7 +29,7 @@ struct Input {
 ///   quads               6144 quads, points of valence 3, 4 and 6, sizes apart by about 10
 const std::vector<Input>& inputs();
 
-/// The mesh of that name.
+/// The generated mesh with this name.
 /// @throws UsageError  there is none
 PolygonMesh makeInput(std::string_view name);
 

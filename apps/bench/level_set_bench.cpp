@@ -1,7 +1,7 @@
-// Level sets, side by side: from polygons refined to a tolerance, as the grid `surface` is made,
-// and from the polygons of the level whose faces fit into a voxel, both through OpenVDB's
-// meshToVolume. Mesh to grid, subdivision included. "rms" and "max" are the distances off those
-// that polygons two levels below a voxel give, in voxels, over the band.
+// Two ways to level sets, both by OpenVDB's meshToVolume: from polygons refined to a tolerance, as
+// for the grid `surface`; and from the polygons of the level whose faces fit into a voxel. Timed
+// from mesh to grid, with subdivision. "rms" and "max" are errors of the distances in the band, in
+// voxels, compared with polygons that are two levels finer than a voxel.
 
 #include "apps/bench/inputs.h"
 #include "libvox/core/memory.h"
@@ -45,8 +45,8 @@ double largestFace(const PolygonMesh& mesh) {
   return largest;
 }
 
-/// Polygons of the first level whose faces fit into a voxel. Its few faces of other sizes than 3
-/// and 4 are within a voxel of each other and become fans.
+/// Polygons of the first level whose faces fit into a voxel, or of a level further. Its few faces
+/// with more than 4 corners fit into a voxel and become fans.
 PolygonMesh voxelSized(SubdivisionLevel level, int further = 0) {
   while (largestFace(level.mesh) > 1) level = subdivide(std::move(level), 1);
   level = subdivide(std::move(level), further);

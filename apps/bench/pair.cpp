@@ -1,5 +1,5 @@
-// Measures whole processes: two commands in turn, built-in comparisons of vox with what it
-// replaces, and how the cost of vox grows with its output.
+// Measures whole processes: two commands in turn; built-in comparisons of vox with other programs;
+// and the growth of the cost of vox with its output.
 
 #include "apps/bench/compare.h"
 #include "apps/bench/contest_report.h"
@@ -42,7 +42,7 @@ struct Options {
   bool quiet = false;
 };
 
-/// A folder that is gone with the object.
+/// A temporary folder; removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -154,7 +154,8 @@ void declare(CLI::App& app, Options& options) {
   declareRun(app, options);
 }
 
-/// @throws CLI::ValidationError  not exactly one thing is asked for
+/// Checks that exactly one task is given.
+/// @throws CLI::ValidationError  none or several are given
 void requireOneTask(const Options& options) {
   const bool commands = !options.commandA.empty();
   if (commands + !options.suite.empty() + !options.scaling.empty() + !options.contest.empty() != 1)
@@ -183,7 +184,7 @@ class Run {
     if (!options.vox.empty()) tools_.vox = options.vox;
   }
 
-  /// All that is asked for, printed as it comes.
+  /// Runs all tasks. Prints the result of each as soon as it is there.
   nlohmann::ordered_json measureAll() {
     nlohmann::ordered_json json{{"machine", machineJson()}, {"pairs", options_.runs}};
     if (!options_.scaling.empty()) {

@@ -13,7 +13,7 @@ constexpr double kLeft = 60;
 constexpr double kRight = 330;  // the legend
 constexpr double kTop = 40;
 constexpr double kBottom = 50;
-/// Told apart by most colour-blind people (Okabe and Ito).
+/// Colours that most colour-blind people can distinguish (Okabe and Ito).
 constexpr std::array<const char*, 8> kColors = {"#000000", "#0072b2", "#56b4e9", "#009e73",
                                                 "#d55e00", "#e69f00", "#cc79a7", "#999999"};
 
@@ -30,7 +30,7 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// From values to places along an axis.
+/// Maps values to positions along an axis.
 struct Axis {
   double low = 1e300;
   double high = 0;

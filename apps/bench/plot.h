@@ -11,14 +11,14 @@ struct Curve {
   std::vector<std::array<double, 2>> points;  ///< x, y, both positive
 };
 
-/// Curves over logarithmic axes.
+/// Curves in a coordinate system with logarithmic axes.
 struct Plot {
-  std::string title;  ///< and what y is
+  std::string title;  ///< also names y
   std::string x;
   std::vector<Curve> curves;
 };
 
-/// An SVG document. Names may hold any text.
+/// The plot as an SVG document. Names may hold any text.
 std::string svgOf(const Plot& plot);
 
 }  // namespace vox::bench

@@ -44,7 +44,7 @@ class Descriptor {
   int number_;
 };
 
-/// Blocks the end of a child and the signals that interrupt us, so that they can be waited for.
+/// Blocks SIGCHLD and the signals that interrupt this process, so that it can wait for them.
 class BlockedSignals {
  public:
   BlockedSignals() {
@@ -58,7 +58,7 @@ class BlockedSignals {
 
   const sigset_t& before() const { return before_; }
 
-  /// The next of these signals, or 0 if none arrives in that time.
+  /// Waits for the next of these signals; returns 0 if none arrives in the given time.
   int wait(double seconds) const {
     const double whole = std::floor(seconds);
     timespec time{};
@@ -72,7 +72,7 @@ class BlockedSignals {
   sigset_t before_{};
 };
 
-/// The part of the child before the program starts: only calls that are safe after fork.
+/// Runs in the child until the program starts; makes only calls that are safe after fork.
 [[noreturn]] void becomeProgram(char* const* arguments, const Limits& limits, int input, int output,
                                 int errorPipe, const sigset_t& signals) {
   ::setpgid(0, 0);
@@ -91,8 +91,8 @@ class BlockedSignals {
   _exit(127);
 }
 
-/// Waits for the end of a process; kills it, and what it started, when its time is up.
-/// @return whether it was in time
+/// Waits for the end of a process. At the timeout, kills it and the processes that it has started.
+/// @return whether it ended in time
 bool waitFor(pid_t process, const BlockedSignals& signals, double timeoutSeconds, int& status,
              rusage& usage) {
   constexpr double kForever = 1e8;

@@ -7,7 +7,7 @@
 
 namespace vox::bench {
 
-/// What a measured process may use; 0: no limit.
+/// Limits of a measured process; 0: no limit.
 struct Limits {
   double timeoutSeconds = 0;
   std::uint64_t memoryBytes = 0;  ///< of address space (RLIMIT_AS)
@@ -18,16 +18,16 @@ enum class Outcome {
   kAbsent,       ///< there is no such program
   kFailed,       ///< another exit code, or a signal
   kTimedOut,     ///< killed at the limit
-  kOutOfMemory,  ///< failed under a limit of memory and says that it is about memory
+  kOutOfMemory,  ///< failed under a memory limit, with a message about memory
 };
 
-/// One process from start to end.
+/// Result and cost of one process.
 struct ProcessRun {
   Outcome outcome = Outcome::kFailed;
   int exitCode = 0;             ///< 128 + number of a signal
   double wallSeconds = 0;       ///< from before the start to after the end
-  double cpuSeconds = 0;        ///< user + system, with waited-for children
-  std::uint64_t peakBytes = 0;  ///< resident; at least what this process itself had at the start
+  double cpuSeconds = 0;        ///< user + system, with the children that it waited for
+  std::uint64_t peakBytes = 0;  ///< resident; at least that of this process at the start
   std::string output;           ///< standard output and error
 };
 
@@ -36,15 +36,15 @@ struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// Runs a program (found as the shell finds it) to its end and measures it. Its input is empty, its
-/// output goes to memory and nowhere else. At the timeout, on interruption, and when this process
-/// dies, it is killed. One at a time.
-/// @throws Interrupted         the process has been killed
-/// @throws std::system_error   the system gives no process
+/// Runs a program to its end and measures it. The program is found like in a shell; its input is
+/// empty, and its output is only kept in memory. It is killed at the timeout, on interruption, and
+/// if this process dies. Not thread-safe.
+/// @throws Interrupted         SIGINT or SIGTERM arrived; the program has been killed
+/// @throws std::system_error   the system could not start a process
 ProcessRun runProcess(const std::vector<std::string>& command, const Limits& limits);
 
-/// "ok", "absent", "failed (exit code 3: vox: error: ...)", "over the timeout", "over the limit of
-/// memory (...)".
+/// The outcome in words: "ok", "absent", "failed (exit code 3: vox: error: ...)", "over the
+/// timeout", "over the limit of memory (...)".
 std::string describe(const ProcessRun& run);
 
 }  // namespace vox::bench

@@ -1,5 +1,5 @@
-// A preview: rays alone (flat), with congradient normals, and with ambient occlusion. One ray per
-// pixel.
+// A preview picture with one ray per pixel: rays alone (flat), with congradient normals, and with
+// ambient occlusion.
 
 #include "apps/bench/render_bench.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kSide = 1024;
 
-/// The voxels of a generated mesh; made once.
+/// The voxels of a generated mesh; made at the first call.
 const VisibleGrids& visibleOf(const Input& input) {
   static std::map<std::string, VisibleGrids> known;
   const auto [entry, isNew] = known.try_emplace(std::string(input.name));

@@ -2,7 +2,7 @@
 
 namespace vox::bench {
 
-/// Registers timings of a picture of 1024 x 1024 pixels of a model of 1024 voxels.
+/// Registers benchmarks of a picture of 1024 x 1024 pixels of a model at dim 1024.
 void registerRender();
 
 }  // namespace vox::bench

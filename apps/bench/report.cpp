@@ -16,7 +16,7 @@ constexpr double kMiB = 1024.0 * 1024;
 constexpr int kNameWidth = 30;
 constexpr int kNumberWidth = 10;
 
-/// Four digits: 0.03612, 12.35, 1234.
+/// The number with four digits: 0.03612, 12.35, 1234.
 std::string shortNumber(double value) {
   std::ostringstream out;
   if (value >= 1000)

@@ -9,15 +9,15 @@
 
 namespace vox::bench {
 
-/// Text tables, with a line end.
+/// Results as text tables that end with a line end.
 std::string tableOf(const Comparison& comparison);
 std::string tableOf(const Scaling& scaling);
 
-/// The same numbers and the commands that gave them. Seconds and bytes; null where there is none.
+/// The same numbers with the commands. Seconds and bytes; null if there is no value.
 nlohmann::ordered_json jsonOf(const Comparison& comparison);
 nlohmann::ordered_json jsonOf(const Scaling& scaling);
 
-/// What one program took.
+/// Results of one program.
 nlohmann::ordered_json jsonOf(const Side& side);
 
 /// The machine that measures: its processor, number of processors and bytes of memory.

@@ -5,7 +5,8 @@ namespace {
 
 using Values = std::vector<double> Side::*;
 
-/// Fits an exponent to the medians of one kind of value, above the floor if there is one.
+/// Fits an exponent to the medians of one kind of value; if `floor` is given, to their differences
+/// from it.
 std::optional<double> exponentOf(const Scaling& scaling, Values values, const Side* floor) {
   std::vector<double> voxels;
   std::vector<double> costs;

@@ -19,24 +19,24 @@ struct ScalingPoint {
   std::optional<double> efficiency(int threadCount) const;
 };
 
-/// Exponents e of cost = c voxels^e; nothing where there are too few points.
+/// Exponents e of cost = c voxels^e; nothing if there are too few points.
 struct Exponents {
   std::optional<double> wall;
   std::optional<double> cpu;
   std::optional<double> peak;
 };
 
-/// How the cost of vox grows with its output.
+/// Growth of the cost of vox with its output.
 struct Scaling {
   std::string input;
   int threads = 0;
   Side floor;  ///< loading OpenVDB alone
   std::vector<ScalingPoint> points = {};
   Exponents whole = {};       ///< of medians of whole processes on `threads` threads
-  Exponents aboveFloor = {};  ///< of what they have above the floor
+  Exponents aboveFloor = {};  ///< of the differences from the floor
 };
 
-/// Measures `vox convert` at rising resolutions, ending with the first that does not succeed.
+/// Measures `vox convert` at rising resolutions; stops after the first that fails.
 /// @param mesh  a mesh file or the name of a generated one
 /// @param dims  in rising order
 Scaling measureScaling(const Tools& tools, const std::string& mesh, const std::vector<int>& dims,

@@ -1,6 +1,7 @@
-// In-process timings of triangle scan conversion on one thread: spheres of equilateral triangles of
-// a given edge, both targets, beside OpenVDB's meshToVolume (unsigned, thinnest band) on the same
-// triangles in the same run. `vox_scan_bench --benchmark_format=json` prints JSON.
+// In-process timings of triangle scan conversion on one thread: spheres of equilateral triangles
+// with a given edge, for both separations; and, for comparison, OpenVDB's meshToVolume (unsigned,
+// thinnest band) on the same triangles in the same run. `vox_scan_bench --benchmark_format=json`
+// prints JSON.
 
 #include "libvox/grid/openvdb.h"
 #include "libvox/voxelize/scan.h"
@@ -50,15 +51,15 @@ Surface sphere(int levels, double edge) {
     }
     surface.triangles = finer;
   }
-  // Area of the sphere over the triangles, each sqrt(3) / 4 edge^2.
+  // The area of the sphere is that of the triangles, sqrt(3) / 4 edge^2 each.
   const double count = static_cast<double>(surface.triangles.size());
   const double radius = edge * std::sqrt(count * std::sqrt(3.0) / 4 / (4 * std::numbers::pi));
   for (Vec3d& p : surface.points) p = radius * p + Vec3d(0.1, 0.2, 0.3);
   return surface;
 }
 
-/// Edges of 0.7 and 1.5 voxels: triangles of 1 to 4 voxels (6) and dense meshes; 15: 100
-/// voxels; 40.
+/// Registers edges of 0.7 to 40 voxels. With 0.7 and 1.5, triangles have 1 to 4 voxels
+/// (6-separating), as in dense meshes; with 15, about 100.
 void edges(benchmark::internal::Benchmark* benchmark) {
   for (const int tenths : {7, 15, 30, 60, 150, 400}) benchmark->Arg(tenths);
   benchmark->ArgName("edge/10")->Unit(benchmark::kMillisecond);
@@ -79,7 +80,7 @@ void count(benchmark::State& state, const Surface& surface, std::uint64_t voxels
   state.counters["voxels/triangle"] = static_cast<double>(voxels) / triangles;
 }
 
-/// The kernel: blocks made and read, not stored. Voxels count once per triangle.
+/// The kernel alone: blocks are made and read, not stored. A voxel counts once per triangle.
 void scan(benchmark::State& state, Separation separation) {
   const Surface surface = surfaceOf(state);
   std::uint64_t voxels = 0;
@@ -97,7 +98,7 @@ void scan(benchmark::State& state, Separation separation) {
 BENCHMARK_CAPTURE(scan, 6, Separation::k6)->Apply(edges);
 BENCHMARK_CAPTURE(scan, 26, Separation::k26)->Apply(edges);
 
-/// The kernel into an OpenVDB mask, voxel by voxel.
+/// The kernel, with its voxels put into an OpenVDB mask one by one.
 void scanToMask(benchmark::State& state, Separation separation) {
   const Surface surface = surfaceOf(state);
   std::uint64_t voxels = 0;
@@ -114,8 +115,8 @@ void scanToMask(benchmark::State& state, Separation separation) {
 BENCHMARK_CAPTURE(scanToMask, 6, Separation::k6)->Apply(edges);
 BENCHMARK_CAPTURE(scanToMask, 26, Separation::k26)->Apply(edges);
 
-/// OpenVDB's unsigned distance with the thinnest band that it makes: voxels whose centre is within
-/// one voxel of the surface. On one thread, as the others.
+/// OpenVDB's unsigned distances in the thinnest band that it makes: voxels whose centre is within
+/// one voxel of the surface. On one thread, like the others.
 void openvdbMeshToVolume(benchmark::State& state) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const Surface surface = surfaceOf(state);

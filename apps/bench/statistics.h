@@ -8,8 +8,7 @@
 
 namespace vox::bench {
 
-/// Of an odd number of values the middle one, of an even number the mean of the two in the middle.
-/// At least one value.
+/// Median of at least one value: the middle one, or the mean of the two in the middle.
 double median(std::vector<double> values);
 
 struct Range {
@@ -17,23 +16,23 @@ struct Range {
   double median = 0;
   double max = 0;
 };
-/// At least one value.
+/// Range of at least one value.
 Range rangeOf(const std::vector<double>& values);
 
-/// b[i] / a[i] for as many as both have; pairs whose a is 0 are left out.
+/// Ratios b[i] / a[i], up to the length of the shorter list. Pairs with a[i] = 0 are left out.
 std::vector<double> ratios(std::span<const double> a, std::span<const double> b);
 
-/// The e of y = c x^e that fits best: least squares of the logarithms. Points whose x or y is not
-/// positive are left out.
+/// The exponent e of y = c x^e that fits best: least squares of the logarithms. Points whose x or y
+/// is not positive are left out.
 /// @return nothing if fewer than two different x are left
 std::optional<double> fitExponent(std::span<const double> x, std::span<const double> y);
 
-/// The same for what y has above a floor. Points less than a quarter above it are left out: their
-/// remainder is mostly noise.
+/// The exponent of y - floor. Points less than a quarter above the floor are left out, because
+/// their difference is mostly noise.
 std::optional<double> fitExponentAbove(double floor, std::span<const double> x,
                                        std::span<const double> y);
 
-/// The N of the last "N active voxels" in what a program printed.
+/// The number N in the last "N active voxels" of the output of a program; nothing if there is none.
 std::optional<std::uint64_t> voxelsIn(std::string_view output);
 
 }  // namespace vox::bench

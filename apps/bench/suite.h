@@ -8,25 +8,27 @@
 
 namespace vox::bench {
 
-/// Where the programs are that comparisons run.
+/// Paths of the programs that comparisons run.
 struct Tools {
   std::filesystem::path vox;
   std::filesystem::path inputsWriter;  ///< vox_bench_inputs_write
   std::filesystem::path peers;         ///< folder of vox_peer_*
 };
 
-/// The tools of the build this program belongs to.
+/// The tools in the same build as the program `self`.
 Tools toolsBeside(const std::filesystem::path& self);
 
-/// `vox convert --grids mask` of a mesh at a resolution, to a file; `more` arguments besides.
+/// `vox convert --grids mask` of a mesh at a resolution, to a file.
+/// @param more  further arguments
 Program voxConvert(const Tools& tools, const std::filesystem::path& mesh, int dim,
                    const std::filesystem::path& output, const std::vector<std::string>& more = {});
 
 /// A program that loads OpenVDB and ends.
 Program openvdbFloor(const Tools& tools);
 
-/// Mesh file for what a user named: a file as it is, or a generated mesh written to the folder.
-/// @throws std::runtime_error  it is neither
+/// Mesh file for a name given by the user: an existing file, or a generated mesh, which is written
+/// to the folder.
+/// @throws std::runtime_error  the name is neither
 std::filesystem::path meshNamed(const Tools& tools, const std::string& name,
                                 const std::filesystem::path& folder);
 
@@ -37,7 +39,7 @@ struct Case {
   Program b;
 };
 
-/// A mesh of the user's to compare on, besides the generated ones.
+/// A mesh of the user for comparisons, in addition to the generated ones.
 struct UserInput {
   std::string file = {};  ///< empty: none
   int dim = 1024;
@@ -49,7 +51,7 @@ struct UserInput {
 ///   hard   vox on the torus at 2048 against vox on each mesh that invites a blow-up
 const std::vector<std::string>& suiteNames();
 
-/// The comparisons of a suite; meshes are written to the folder, and so will be outputs.
+/// The comparisons of a suite. Writes their meshes to the folder; their outputs go there, too.
 std::vector<Case> suiteCases(const std::string& name, const Tools& tools, const UserInput& user,
                              const std::filesystem::path& folder);
 

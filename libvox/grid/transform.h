@@ -54,8 +54,8 @@ inline Turn inverse(Turn turn) {
 Turn turnFor(std::optional<UpAxis> up, Target target);
 
 /// Transform between world space and index space: index = turned(world) / voxelSize. Voxel
-/// (i, j, k) is the unit cube centred on (i, j, k) in index space. No grid has an offset, so voxels
-/// of grids with the same voxel size coincide.
+/// (i, j, k) is the unit cube centred on (i, j, k) in index space. There is no offset, so voxels of
+/// grids with the same voxel size coincide.
 struct GridTransform {
   double voxelSize = 1;  ///< world units, > 0
   Turn turn = Turn::kNoTurn;

@@ -1,4 +1,4 @@
-// Greedy cover by breadth-first search.
+// Greedy cover: submeshes grow by breadth-first search.
 
 #include "libvox/localize/partition.h"
 
@@ -14,10 +14,11 @@ namespace {
 
 constexpr Index kFacesPerBlock = 16384;
 
-/// Submeshes that may share a neighbourhood, about: enough for the threads to share its work too.
+/// About so many submeshes may share the faces around one vertex or face, so that several threads
+/// share their work, too.
 constexpr Index kSubmeshesPerNeighbourhood = 8;
 
-/// The faces one after another, and where each of them is.
+/// An order of the faces, and the place of each face in it.
 struct FaceOrder {
   std::vector<Index> faces;
   std::vector<Index> places;
@@ -31,7 +32,7 @@ FaceOrder inputOrder(Index count) {
   return order;
 }
 
-/// Bits of a place of 0 .. 2^21 along an axis, two bits apart.
+/// The 21 bits of x, with two zero bits after each.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32U) & 0x001F00000000FFFFULL;
   x = (x | x << 16U) & 0x001F0000FF0000FFULL;
@@ -40,7 +41,8 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2U) & 0x1249249249249249ULL;
 }
 
-/// By where their first corners lie on a Z-order curve through the box of the mesh (Morton 1966).
+/// Order of the faces by the position of their first corners on a Z-order curve through the box of
+/// the mesh (Morton 1966).
 FaceOrder spatialOrder(const PolygonMesh& mesh) {
   const Index count = mesh.faceCount();
   constexpr double kMost = (1 << 21) - 1;
@@ -87,8 +89,8 @@ class BlockCover {
     return std::move(cover_);
   }
 
-  /// How often faces were gathered around a centre; with remains, more often than there are
-  /// submeshes.
+  /// Number of centres around which faces were gathered: one for each submesh and for each
+  /// remainder that was added to the submesh before.
   std::size_t centres() const { return centres_; }
 
  private:

@@ -8,7 +8,7 @@
 
 namespace vox {
 
-/// The faces of a mesh, dealt out to submeshes: each face in exactly one.
+/// Partition of the faces of a mesh: each face is in exactly one submesh.
 struct Partition {
   std::vector<Index> faces;          ///< submesh after submesh
   std::vector<Index> offsets = {0};  ///< submeshes + 1
@@ -19,21 +19,22 @@ struct Partition {
   }
 };
 
-/// The most faces around a vertex, or edges of a face.
+/// The largest number of faces around a vertex, or of edges of a face.
 Index largestNeighbourhood(const PolygonMesh& mesh);
 
 /// Covers a mesh greedily: a face not yet covered becomes a centre, faces without boundary edge
-/// first, and gathers the nearest uncovered faces, breadth-first over edges, up to `most` faces.
-/// What a submesh needs besides is its one-ring, so compact submeshes repeat little. Remains of
-/// fewer than half as many faces are put together with the submesh before them.
+/// first. It gathers the nearest uncovered faces, breadth-first over edges, up to `most` faces. A
+/// group of fewer than half as many faces is added to the submesh before it. Submeshes are compact,
+/// because each task also needs the one-ring of its submesh, and the larger the one-ring is, the
+/// more work is repeated.
 ///
-/// Works on blocks of consecutive faces in parallel, which submeshes do not cross: the input's
-/// order is mostly local, and then little is lost. Where it is not, as the cover of a larger mesh
-/// falling to pieces shows, the faces are put into spatial order and covered again. Deterministic;
-/// the result does not depend on threads.
+/// Blocks of consecutive faces are covered in parallel; no submesh crosses blocks. That costs
+/// little if the order of the faces is local, as it usually is. If the cover of a larger mesh falls
+/// to pieces, the faces are put into spatial order and covered again. Deterministic; the result
+/// does not depend on threads.
 ///
-/// @param most  faces of a submesh, at least 1; more where thousands meet, as each submesh there
-/// needs them all: an eighth of the largest neighbourhood
+/// @param most  faces of a submesh, at least 1. It is raised to an eighth of largestNeighbourhood
+///   if that is more, because each submesh there needs all these faces.
 /// Cost O(C). Source: paper section 4.
 Partition coverGreedily(const PolygonMesh& mesh, const Adjacency& adjacency, Index most);
 

@@ -13,8 +13,8 @@
 namespace vox {
 namespace {
 
-/// The x with x[i] = values[i] + r x[i-1], cyclically: its first element is a geometric series
-/// around the loop, of which terms beyond rounding are left out.
+/// Replaces `values` by the x with x[i] = values[i] + r x[i-1], cyclically. x[0] is a geometric
+/// series around the loop; terms below rounding are left out.
 void filterCyclically(std::vector<Vec3d>& values, double r) {
   constexpr double kNegligible = 1e-40;
   const std::size_t n = values.size();
@@ -35,7 +35,8 @@ void filterCyclically(std::vector<Vec3d>& values, double r) {
 std::vector<Vec3d> interpolatingControls(std::span<const Vec3d> points) {
   const double r = 2 * std::sqrt(2.0) - 3;
   const std::size_t n = points.size();
-  // Solves for how far the controls are from the points: small numbers, wherever the model stands.
+  // The unknowns are the differences between controls and points: small numbers, even if the model
+  // is far from the origin.
   std::vector<Vec3d> moves(n);
   for (std::size_t i = 0; i < n; ++i)
     moves[i] = ((points[i] - points[(i + n - 1) % n]) + (points[i] - points[(i + 1) % n])) / 8.0;

@@ -8,9 +8,10 @@
 
 namespace vox {
 
-/// Control points of the closed uniform quadratic B-spline that passes through `points`, each at
-/// the middle of its span: the C with C[i-1]/8 + 3/4 C[i] + C[i+1]/8 = points[i], cyclically. Any
-/// number of points >= 1: with two, C[i-1] and C[i+1] are the same point; one is its own control.
+/// Control points C of the closed uniform quadratic B-spline that passes through `points`, through
+/// each in the middle of its span: C[i-1]/8 + 3/4 C[i] + C[i+1]/8 = points[i], cyclically. There
+/// may be any number of points: with two, C[i-1] and C[i+1] are the same point; a single point is
+/// its own control point.
 ///
 /// Cost O(n). The matrix is circulant and its condition number at most 2; it is inverted by two
 /// recursive filters that damp every rounding error by 0.17 per point.
@@ -18,9 +19,9 @@ namespace vox {
 std::vector<Vec3d> interpolatingControls(std::span<const Vec3d> points);
 
 /// Moves the vertices of each boundary loop so that the boundary curve of the extended surface
-/// passes through where they were; all others stay.
-/// @throws MeshError  a vertex is on the boundary more than once (a bow tie), which no single
-///   control point can serve; the message names it
+/// passes through their old positions. All other vertices stay.
+/// @throws MeshError  a vertex is on the boundary more than once (a bow tie): one control point
+///   cannot fit two curves; the message names the vertex
 PolygonMesh interpolateBoundary(PolygonMesh mesh, const Adjacency& adjacency);
 
 }  // namespace vox

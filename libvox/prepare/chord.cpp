@@ -1,4 +1,4 @@
-// A worklist of vertices over faces kept as linked rings of corners.
+// Faces as cyclic linked lists of corners, and a work list of the vertices to check.
 
 #include "libvox/prepare/chord.h"
 
@@ -80,7 +80,7 @@ class Chording {
     if (b != kNone) twin_[b] = a;
   }
 
-  /// Drops the face of corner p if it has two corners, and joins what is on its two sides.
+  /// If the face of corner p has two corners left, drops it and joins its two neighbours.
   void closeIfTwoCornered(Index p) {
     const Index f = joints_.cornerFace[p];
     if (faceSize_[f] != 2) return;
@@ -96,7 +96,7 @@ class Chording {
     leave(vertexOf(q), rest);
   }
 
-  /// Vertex v lost a corner; edge `rest` ends there and is still alive, if any.
+  /// Notes that vertex v has lost a corner. `rest` is an edge at v that is still alive, or kNone.
   void leave(Index v, Index rest) {
     --valence_[v];
     cornerAt_[v] = rest == kNone ? kNone : cornerOn(rest, v);
@@ -123,8 +123,8 @@ class Chording {
   std::vector<Index> previous_;
   std::vector<bool> alive_;
   std::vector<Index> faceSize_;
-  std::vector<Index> cornerAt_;  // some living corner of each vertex
-  std::vector<Index> valence_;   // living corners of each vertex
+  std::vector<Index> cornerAt_;  // an alive corner of each vertex, or kNone
+  std::vector<Index> valence_;   // number of alive corners of each vertex
   std::vector<Index> work_;
   ChordResult result_;
 };

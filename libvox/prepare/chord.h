@@ -7,26 +7,27 @@
 
 namespace vox {
 
-/// What chordInteriorPairs did; all numbers are those of its argument.
+/// Result of chordInteriorPairs. Faces and vertices are numbered as in its argument.
 struct ChordResult {
-  PolygonMesh mesh;                       ///< points unchanged, some unused now
-  std::vector<Index> faceOrigin;          ///< the argument's face each face was
-  std::vector<Index> chordedVertices;     ///< in the order they were removed
-  std::vector<Index> collapsedFaces;      ///< left with two corners and closed up, in that order
-  std::vector<Index> vanishedComponents;  ///< last face of each component that closed up altogether
+  PolygonMesh mesh;                       ///< all points of the argument; some are unused now
+  std::vector<Index> faceOrigin;          ///< for each face of `mesh`, the face of the argument
+  std::vector<Index> chordedVertices;     ///< in the order in which they were removed
+  std::vector<Index> collapsedFaces;      ///< dropped with two corners left, in order
+  std::vector<Index> vanishedComponents;  ///< last face of each component without any face left
 };
 
-/// Removes every interior vertex that has only two faces from both of them, which then share one
-/// edge instead of two. A face left with two corners is dropped and its neighbours are joined to
-/// each other; this goes on until no such vertex is left. Vertices on the boundary stay.
+/// Removes every interior vertex of two faces from both faces, so that these share one edge instead
+/// of two. Drops a face with two corners left and joins its neighbours to each other. Repeats this
+/// until no such vertex is left. Vertices on the boundary stay.
 ///
-/// The mesh has faces of distinct vertices and one fan at each vertex; `joints` as joinFaces makes
-/// it. The result may have edges of four faces, where a chord runs beside an edge that was there.
+/// The result may have edges of four faces, if a new edge runs beside an old one.
+/// @param mesh    faces of distinct vertices, one fan at each vertex
+/// @param joints  from joinFaces
 /// Cost O(C).
 ChordResult chordInteriorPairs(const PolygonMesh& mesh, const Adjacency& joints);
 
-/// Separates the two faces of every interior vertex that has only two: their edges at the vertex
-/// become boundary. The crude alternative to chording, which always ends.
+/// Separates the two faces of every interior vertex of two faces: the edges at the vertex become
+/// boundary. A crude alternative to chording that needs no repetition.
 void openInteriorPairs(const PolygonMesh& mesh, Adjacency& joints);
 
 }  // namespace vox

@@ -1,4 +1,5 @@
-// Volume by the divergence theorem; inside by the parity of crossings with half-open edges.
+// Volume by the divergence theorem. Inside or outside by the parity of crossings of a ray, with
+// half-open edges.
 
 #include "libvox/prepare/enclosure.h"
 
@@ -18,8 +19,8 @@ void forEachTriangle(const PolygonMesh& mesh, Index f, Visit&& visit) {
     visit(mesh.points[face[0]], mesh.points[face[i]], mesh.points[face[i + 1]]);
 }
 
-/// Whether, seen along x, a ray from p in +z crosses edge ab, whose interval of y is half open. The
-/// same answer for ab and ba.
+/// Whether, in the projection along x, the ray from p in +z crosses edge ab. The interval of y of
+/// the edge is half open. ab and ba give the same answer.
 bool crossesAbove(Vec3d a, Vec3d b, const Vec3d& p) {
   if ((a.y() > p.y()) == (b.y() > p.y())) return false;
   if (a.y() > b.y()) std::swap(a, b);

@@ -6,21 +6,22 @@
 
 namespace vox {
 
-/// Volume inside a closed set of faces, positive if they face outward, and the size of the numbers
-/// it was summed from: a volume below 1e-12 of that is rounding.
+/// Volume inside a closed set of faces, positive if the faces face outward. `scale` is the sum of
+/// the absolute values of the terms: a volume below 1e-12 of it is taken for rounding.
 struct SignedVolume {
   double volume = 0;
   double scale = 0;
   int sign() const { return volume > 1e-12 * scale ? 1 : volume < -1e-12 * scale ? -1 : 0; }
 };
 
-/// Sum over the faces, each seen as a fan of triangles from its first corner. Serial, in order.
+/// Signed volume of a closed set of faces, each cut into a fan of triangles from its first corner.
+/// Summed in the order of the faces, by one thread.
 SignedVolume signedVolume(const PolygonMesh& mesh, std::span<const Index> faces);
 
-/// Whether a closed set of faces winds around the point an odd number of times along the ray in +x,
-/// whatever the winding of the faces. The ray passes edges and vertices as if the point lay a
-/// little further in +y and +z, so shared edges count once. A point on the surface may go either
-/// way.
+/// Whether the ray from a point in +x crosses a closed set of faces an odd number of times. The
+/// winding of the faces does not matter. At edges and vertices the ray counts as shifted a little
+/// in +y and +z, so that a shared edge counts once. For a point on the surface either result is
+/// possible.
 bool encloses(const PolygonMesh& mesh, std::span<const Index> faces, const Vec3d& point);
 
 }  // namespace vox

@@ -1,4 +1,5 @@
-// A canonical name for each cycle of vertices, so that nothing depends on how a file wrote it.
+// A canonical form of each cycle of vertices, so that results do not depend on the first corner of
+// a face or its winding.
 
 #include "libvox/prepare/face_order.h"
 

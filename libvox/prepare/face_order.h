@@ -8,16 +8,17 @@
 
 namespace vox {
 
-/// Rotates a face so that it starts at its lowest vertex; the winding stays.
+/// Rotates the list of a face so that it starts with the lowest vertex; the winding stays.
 void startAtLowest(std::span<Index> face);
 
-/// Brings a face of distinct vertices into canonical form: it starts at its lowest vertex and goes
-/// on to the lower one of that vertex's two neighbours. Two faces have the same canonical form
-/// exactly when they are the same cycle, in either direction.
+/// Brings a face of distinct vertices into canonical form: first its lowest vertex, then the lower
+/// of the two neighbours of this vertex. Two faces have the same canonical form exactly if they are
+/// the same cycle of vertices, in either direction.
 /// @return whether the winding was reversed
 bool canonicalize(std::span<Index> face);
 
-/// Canonicalizes every face; slot f of the result says whether face f was reversed. Parallel.
+/// Canonicalizes every face. Parallel.
+/// @return for each face, whether its winding was reversed
 std::vector<std::uint8_t> canonicalizeFaces(PolygonMesh& mesh);
 
 /// For each face, the first face on the same cycle of vertices, in either direction. Cost

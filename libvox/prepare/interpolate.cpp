@@ -1,4 +1,5 @@
-// Which vertices the surface passes through, and by which of the two methods.
+// Selects the vertices through which the surface passes: boundary vertices for boundary
+// interpolation, interior vertices for lifting.
 
 #include "libvox/prepare/interpolate.h"
 
@@ -12,8 +13,8 @@
 namespace vox {
 namespace {
 
-/// The vertices to lift: all interior ones if asked for, and the prescribed ones that boundary
-/// interpolation does not serve.
+/// The vertices to lift: the prescribed ones, except those that boundary interpolation already
+/// moves, and with `interior` all interior ones.
 std::vector<Index> verticesToLift(const PolygonMesh& mesh, const std::vector<VertexKind>& kinds,
                                   bool interior, bool boundary, std::span<const Index> prescribed) {
   std::vector<Index> vertices;

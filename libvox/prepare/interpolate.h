@@ -9,16 +9,19 @@
 
 namespace vox {
 
-/// What interpolation did.
+/// Counts of interpolate.
 struct InterpolationReport {
   Index boundaryVertices = 0;  ///< moved by boundary interpolation
   LiftReport lift;
 };
 
-/// Moves vertices so that the smooth surface passes through where they were: every interior vertex
-/// (of a closed ring of 3 faces or more), every boundary vertex (through the boundary curve of an
-/// extended surface), both, or none, and besides these the prescribed ones. Boundary first; its
-/// control points stay where lifting finds them.
+/// Moves vertices so that the smooth surface passes through their old positions. The boundary comes
+/// first (interpolateBoundary), then the interior vertices (lift), which leaves the control points
+/// of the boundary in place.
+///
+/// @param which       all interior vertices (those with a closed one-ring of 3 faces or more), all
+///   boundary vertices, both, or none
+/// @param prescribed  interior vertices to interpolate besides
 /// @throws MeshError, LimitError  as lift and interpolateBoundary; a prescribed boundary vertex is
 ///   an error unless the boundary is interpolated
 PolygonMesh interpolate(PolygonMesh mesh, const Adjacency& adjacency, Interpolate which,

@@ -18,7 +18,7 @@ namespace {
 
 constexpr Index kRowsPerTask = 4096;
 constexpr double kTolerance = 1e-13;  // norm of the residual, relative to the right-hand side
-constexpr int kMostIterations = 100;  // the bound on the condition number promises 40
+constexpr int kMostIterations = 100;  // 40 follow from the bound on the condition number
 
 // Selection
 
@@ -39,6 +39,7 @@ std::string whyNotInterior(VertexKind kind) {
 }
 
 /// The vertices in increasing order, each once.
+/// @throws MeshError  one does not exist or is not interior
 std::vector<Index> interiorVertices(const PolygonMesh& mesh, const Adjacency& adjacency,
                                     std::span<const Index> vertices) {
   const std::vector<VertexKind> kinds = vertexKinds(mesh, adjacency);
@@ -58,7 +59,8 @@ std::vector<Index> interiorVertices(const PolygonMesh& mesh, const Adjacency& ad
 
 // Lifting
 
-/// How far the images around each lifted vertex, summed up, are from where they should be.
+/// For each lifted vertex, the difference between the wanted sum of the images around it and the
+/// sum that they have.
 Eigen::Matrix3Xd gaps(LiftSystem& system, const PolygonMesh& mesh,
                       const std::vector<Vec3d>& wanted) {
   Eigen::Matrix3Xd gap = system.sumCorners(mesh.points);
@@ -70,8 +72,8 @@ Eigen::Matrix3Xd gaps(LiftSystem& system, const PolygonMesh& mesh,
   return gap;
 }
 
-/// How far to move each lifted vertex. Scaled, because the solver squares what it is given: the
-/// squares neither vanish nor overflow.
+/// The move of each lifted vertex. The right-hand side is scaled to size 1, because the solver
+/// squares numbers, which might underflow or overflow.
 Eigen::Matrix3Xd solve(LiftSystem& system, const Eigen::Matrix3Xd& gap, int& iterations) {
   const double scale = std::max(gap.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
   const Eigen::VectorXd scaled = gap.reshaped() / scale;

@@ -15,8 +15,9 @@ struct Eigen::internal::traits<vox::LiftMatrix>
 
 namespace vox {
 
-/// A LiftSystem as Eigen's solvers want to see a matrix: of vectors with three coordinates after
-/// another for each lifted vertex, so that the three share every pass over the mesh.
+/// A LiftSystem with the interface of a matrix for Eigen's solvers. It multiplies vectors that hold
+/// the three coordinates of each lifted vertex one after another, so that one pass over the mesh
+/// serves all three.
 class LiftMatrix : public Eigen::EigenBase<LiftMatrix> {
  public:
   using Scalar = double;
@@ -45,7 +46,7 @@ class LiftMatrix : public Eigen::EigenBase<LiftMatrix> {
         .reshaped();
   }
 
-  /// The number of faces around the vertex of each row.
+  /// Number of faces around the vertex of each row.
   Eigen::VectorXd valences() const {
     Eigen::VectorXd valences(rows());
     for (vox::Index row = 0; row < system_.rows(); ++row)
@@ -57,8 +58,8 @@ class LiftMatrix : public Eigen::EigenBase<LiftMatrix> {
   LiftSystem& system_;
 };
 
-/// Divides by the number of faces around each vertex: the scaling for which the bound on the
-/// condition number is proved.
+/// Divides each row by the number of faces around its vertex. The bound on the condition number
+/// (lift.h) holds for this scaling.
 class ValencePreconditioner : public Eigen::DiagonalPreconditioner<double> {
  public:
   ValencePreconditioner& compute(const LiftMatrix& matrix) {

@@ -1,5 +1,5 @@
-// Each face by its mean and its first harmonic, so that a face of n corners costs O(n); then each
-// vertex from its corners.
+// The images of a face from its mean and its first harmonic, so that a face of n corners costs
+// O(n); then the sum of the images around each vertex.
 
 #include "libvox/prepare/lift_system.h"
 

@@ -7,13 +7,13 @@
 
 namespace vox {
 
-/// Cuts cyclic lists of vertices where they return to a vertex.
+/// Cuts a cyclic list of vertices into loops wherever it returns to a vertex.
 class LoopCutter {
  public:
   explicit LoopCutter(Index pointCount) : place_(pointCount, kNone) {}
 
-  /// Calls visit(loop) with the loops of a face, each without repeats of its own. A loop of
-  /// one corner is a repeat (v v), one of two a spike (a b a). Linear in the face.
+  /// Calls visit(loop) for each loop of a face. The vertices of a loop are distinct. A loop of one
+  /// corner comes from a repeat (v v), a loop of two from a spike (a b a). Cost linear in the face.
   template <class Visit>
   void cut(std::span<const Index> face, Visit&& visit) {
     for (const Index v : face) {
@@ -35,7 +35,7 @@ class LoopCutter {
   }
 
   std::vector<Index> path_;
-  std::vector<Index> place_;  // of each vertex in the path, or kNone
+  std::vector<Index> place_;  // index of each vertex in path_, or kNone
 };
 
 }  // namespace vox

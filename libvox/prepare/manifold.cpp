@@ -1,5 +1,5 @@
-// Sheets by union-find over faces (with a bit that says which are wound against each other), fans
-// by union-find over corners.
+// Sheets: union-find over faces, with a bit for the winding (WindingForest). Fans: union-find over
+// corners.
 // Cutting along singular edges and vertices: A. Gueziec, G. Taubin, F. Lazarus, W. Horn, Cutting
 // and stitching: converting sets of polygons to manifold surfaces, 2001.
 
@@ -21,9 +21,9 @@
 namespace vox {
 namespace {
 
-constexpr std::size_t kMostSheets = 32;  // candidate pairs grow with its square
+constexpr std::size_t kMostSheets = 32;  // the number of candidate pairs grows with its square
 
-/// Newell normals; bitwise opposite for opposite windings.
+/// Newell normals of the faces. The normal of a reversed face is exactly the negative.
 std::vector<Vec3d> faceNormals(const PolygonMesh& mesh) {
   PolygonMesh canonical = mesh;
   const auto reversed = canonicalizeFaces(canonical);
@@ -60,7 +60,8 @@ class EdgePairing {
   }
 
  private:
-  /// Not of one sheet; cosine of the angle between the faces, -1 when flat; the corners.
+  /// A pair of faces, in the order of joining: whether they belong to different sheets; the cosine
+  /// of the angle between them (-1: flat); their two corners on the edge.
   using Candidate = std::tuple<bool, double, Index, Index>;
 
   std::vector<Candidate> candidatesOf(std::span<const EdgeCorner> edge) const {
@@ -76,7 +77,7 @@ class EdgePairing {
     return candidates;
   }
 
-  /// Unit vector from the edge of c into its face; 0 where the face has no area.
+  /// Unit vector in the face of c, perpendicular to the edge of c; 0 if the face has no area.
   Vec3d inwardDirection(Index c) const {
     const Index next = nextCorner(mesh_, adjacency_, c);
     const Vec3d along =
@@ -110,7 +111,7 @@ void pairCrowdedEdges(const PolygonMesh& mesh, std::span<const EdgeCorner> edges
   });
 }
 
-/// Fans of corners.
+/// Fans, as sets of corners.
 Forest findFans(const PolygonMesh& mesh, const Adjacency& joints) {
   Forest fans(mesh.cornerCount());
   for (Index c = 0; c < mesh.cornerCount(); ++c) {

@@ -1,4 +1,5 @@
-// Breadth-first search over shared edges, then one decision per component.
+// A breadth-first search over shared edges winds each component consistently; then each component
+// is turned as a whole.
 
 #include "libvox/prepare/orient.h"
 
@@ -21,17 +22,17 @@ using Box = Eigen::AlignedBox3d;
 
 constexpr std::uint64_t kMostSearchSteps = 1'000'000'000;
 
-/// Faces that hang together along edges: a range of Components::faces.
+/// Faces that are connected through edges: a range of Components::faces.
 struct Component {
   std::size_t begin;
   std::size_t end;
-  Index asInput = 0;  // faces wound as in the input
+  Index asInput = 0;  // number of faces that are wound as in the input
   bool boundary = false;
   bool oneSided = false;
 };
 
 struct Components {
-  std::vector<Index> faces;            // by component, each in breadth-first order from its lowest
+  std::vector<Index> faces;            // component after component, breadth-first from its lowest
   std::vector<std::uint8_t> reversed;  // per face: wound against canonical form
   std::vector<Component> list;         // by lowest face
 
@@ -48,7 +49,8 @@ void flip(std::span<Index> face) {
   std::reverse(face.begin() + 1, face.end());  // still starts at its lowest vertex
 }
 
-/// Winds every face of a canonical mesh as the first face of its component.
+/// Finds the components of a mesh in canonical form, and for each face whether it must be reversed
+/// to be wound like the first face of its component.
 class ComponentSearch {
  public:
   ComponentSearch(const PolygonMesh& mesh, const Adjacency& joints)
@@ -100,7 +102,7 @@ class ComponentSearch {
   Components out_;
 };
 
-/// Finds out which consistently wound components lie inside closed ones.
+/// Finds out whether a component lies inside another, closed one.
 class CavitySearch {
  public:
   CavitySearch(const PolygonMesh& mesh, const Components& components)
@@ -140,15 +142,15 @@ class CavitySearch {
   std::uint64_t steps_ = 0;
 };
 
-/// Whether a component (wound as its first face in canonical form) must be turned to be wound as
-/// most of the input.
+/// Whether a component must be turned so that most of its faces are wound as in the input. So far
+/// it is wound like its first face in canonical form.
 bool turnToMajority(const Component& component, bool firstAsInput) {
   const std::size_t size = component.end - component.begin;
   const std::size_t asInput = component.asInput;
   return 2 * asInput == size ? !firstAsInput : 2 * asInput < size;
 }
 
-/// The same for all rules; counts what it finds.
+/// Whether a component must be turned, by all rules of orient.h. Counts cavities.
 bool mustTurn(const PolygonMesh& mesh, const Components& components, const Component& component,
               bool firstAsInput, CavitySearch& cavities, OrientReport& report) {
   const bool majority = turnToMajority(component, firstAsInput);
@@ -172,7 +174,7 @@ void countComponents(const Components& components, OrientReport& report) {
       ++(component.boundary ? report.openComponents : report.closedComponents);
 }
 
-/// Decides for each component which way it faces, and winds all faces so.
+/// Decides for each component whether it is turned, and winds all faces accordingly.
 void turnComponents(PolygonMesh& mesh, Components& components,
                     const std::vector<std::uint8_t>& inputReversed, OrientReport& report) {
   for (Index f = 0; f < mesh.faceCount(); ++f)
@@ -181,7 +183,7 @@ void turnComponents(PolygonMesh& mesh, Components& components,
     for (const Index f : components.facesOf(component))
       component.asInput += components.reversed[f] == inputReversed[f];
 
-  std::vector<std::uint8_t> turn;  // decided before anything is turned: cavities look at neighbours
+  std::vector<std::uint8_t> turn;  // decided before any turn: cavities depend on other components
   CavitySearch cavities(mesh, components);
   for (const Component& component : components.list) {
     const Index first = components.faces[component.begin];
@@ -246,8 +248,8 @@ class DoubleCover {
     return mesh_.faceOffsets[mirrorFace_[f] + 1] - 1 - (c - mesh_.faceOffsets[f]);
   }
 
-  /// Edge c and its mirror image lead to the neighbour and its mirror image, crosswise where the
-  /// neighbour is wound against its face. Writes to c and its image only.
+  /// Joins edge c and its mirror image to the neighbour's edge and its mirror image; crosswise if
+  /// the neighbour is wound against the face of c. Writes the twins of c and its image only.
   void joinCopies(Index c, Adjacency& joints) const {
     const Index t = joints.twin[c];
     if (t == kNone) return;

@@ -1,4 +1,5 @@
-// The order of the steps, and the book-keeping that lets every message name the input's elements.
+// The order of the steps, and the origins of all elements, so that messages can name elements of
+// the input.
 
 #include "libvox/prepare/repair.h"
 
@@ -17,15 +18,15 @@
 namespace vox {
 namespace {
 
-/// Chording can create edges of four faces, cutting those new vertices to chord. Real meshes need
-/// one or two rounds; this many keep the cost of any other within its bound.
+/// Chording can create edges of four faces; cutting these can create new vertices to chord. Real
+/// meshes need one or two rounds. The limit bounds the cost for all others.
 constexpr int kMostRounds = 16;
 
 std::string str(std::size_t n) {
   return std::to_string(n);
 }
 
-/// A mesh on its way, and where its elements come from.
+/// The mesh between two steps, and the elements of the input from which its elements come.
 struct Draft {
   PolygonMesh mesh;
   std::vector<Index> pointOrigin;
@@ -129,7 +130,7 @@ void noteCutEdges(const Draft& draft, const Joints& joints, RepairReport& report
   }
 }
 
-/// Vertices (of the draft) at which crowded edges end.
+/// For each vertex of the draft, whether it belongs to a crowded edge.
 std::vector<bool> crowdedVertices(const Draft& draft, const Joints& joints) {
   std::vector<bool> crowded(draft.mesh.pointCount(), false);
   for (const Index c : joints.crowdedEdges) {
@@ -150,9 +151,10 @@ void noteCopies(Draft& draft, const std::vector<Index>& copied, const std::vecto
   }
 }
 
-/// Leaves edges of one or two faces and vertices of one fan. Where the fans of a pair of sheets
-/// meet again around both ends of their edge, copies cannot tell the sheets apart; a second pass
-/// separates all faces there, which leaves at most two to each copy of the edge.
+/// Cuts the mesh so that every edge has one or two faces and every vertex one fan. If the fans of
+/// two pairs of sheets meet again around both ends of their edge, the copies of vertices do not
+/// separate the pairs. A second pass then joins no faces at the edge, which leaves at most two
+/// faces at each copy of it.
 Adjacency cutIntoSheets(Draft& draft, RepairReport& report) {
   for (const auto crowded : {CrowdedEdge::kPairSheets, CrowdedEdge::kSeparate}) {
     const Joints joints = joinFaces(draft.mesh, crowded);
@@ -184,7 +186,7 @@ void noteChords(Draft& draft, const ChordResult& chords, RepairReport& report) {
     });
 }
 
-/// @return whether there was anything to chord
+/// @return whether any vertex was chorded
 bool chord(Draft& draft, const Adjacency& joints, RepairReport& report) {
   ChordResult chords = chordInteriorPairs(draft.mesh, joints);
   if (chords.chordedVertices.empty()) return false;
@@ -208,7 +210,7 @@ void makeManifold(Draft& draft, RepairReport& report) {
   noteCopies(draft, copied, std::vector<bool>(draft.mesh.pointCount(), false), report);
 }
 
-/// Counts the input's vertices that are gone, but not those that were welded or chorded away.
+/// Counts the vertices of the input that are not in the output, except welded and chorded ones.
 void noteRemoved(const Draft& draft, RepairReport& report) {
   std::vector<bool> accountedFor = draft.chorded;
   for (const Index origin : draft.pointOrigin) accountedFor[origin] = true;

@@ -10,80 +10,81 @@
 namespace vox {
 
 struct RepairOptions {
-  /// World units; 0 welds points of equal coordinates only (-0 equals +0).
+  /// Distance in world units; 0 welds only points with equal coordinates (-0 equals +0).
   double weldTolerance = 0;
-  /// false: points that lie on each other stay apart, as in what repair itself returns.
+  /// false: points at the same place stay separate. Needed for results of repair, whose copies lie
+  /// at the same place as their originals.
   bool weld = true;
 };
 
-/// What repair does to a mesh.
+/// Kinds of changes that repair makes.
 enum class RepairKind {
   kWeldedVertex,       ///< a vertex replaced by one at (nearly) the same place
   kRepeatedCorner,     ///< a face that lost repeats (v v) and spikes (a b a)
-  kSplitFace,          ///< a face that touched itself, cut into its loops
+  kSplitFace,          ///< a face that touched itself, cut into loops
   kDegenerateFace,     ///< a face without three distinct vertices, dropped
   kDuplicateFace,      ///< a face on the vertices of an earlier one, in either direction, dropped
   kCutEdge,            ///< an edge of three or more faces, cut into sheets
   kSplitVertex,        ///< a vertex between several fans: a copy for each fan but the first
   kChordedVertex,      ///< an interior vertex of two faces, removed from both
-  kCollapsedFace,      ///< a face that chording left with two corners, closed up
-  kVanishedComponent,  ///< a component that chording closed up altogether
-  kRemovedVertex,      ///< a vertex no face names, in the input or after the rest, removed
+  kCollapsedFace,      ///< a face with two corners left after chording, dropped
+  kVanishedComponent,  ///< a component of which chording left no face
+  kRemovedVertex,      ///< a vertex without a face in the end, removed
 };
 inline constexpr std::size_t kRepairKindCount = 11;
 
-/// Short name for JSON: "welded vertices".
+/// Short name for JSON, such as "welded vertices".
 std::string repairName(RepairKind kind);
 
-/// All that was done of one kind.
+/// All changes of one kind.
 struct RepairAction {
   std::size_t count = 0;
-  Index element = kNone;  ///< the first one: a face or vertex of the input (kCutEdge: a face)
-  std::string message;    ///< names it by its 0-based number: "welded vertex 7 to vertex 3"
+  Index element = kNone;  ///< of the first change: a face or vertex of the input (kCutEdge: a face)
+  std::string message;    ///< of the first change, numbers from 0: "welded vertex 7 to vertex 3"
 };
 
-/// What repair did, and where its output comes from.
+/// Changes that repair made, and origins of the elements of its output.
 struct RepairReport {
   std::array<RepairAction, kRepairKindCount> actions;
   std::vector<Index> pointOrigin;  ///< input point of each point of the output
   std::vector<Index> faceOrigin;   ///< input face of each face of the output
-  std::vector<Index> weldedTo;     ///< per input point: the input point it was welded to, or itself
+  std::vector<Index> weldedTo;     ///< for each input point, the one it was welded to, or itself
 
   const RepairAction& operator[](RepairKind kind) const {
     return actions[static_cast<std::size_t>(kind)];
   }
-  bool changed() const;  ///< whether anything was done at all
+  bool changed() const;  ///< whether there was any change
 };
 
-/// One line: "welded 403 vertices, cut 3 edges"; empty if nothing was done.
+/// Summary in one line: "welded 403 vertices, cut 3 edges"; empty if there was no change.
 std::string summary(const RepairReport& report);
 
-/// A mesh that needs nothing but orient() to be subdivided: every edge has one face or two, faces
-/// have distinct vertices and none is there twice, the faces around each vertex form one fan, every
-/// vertex has a face, and no interior vertex has only two. The output may be empty.
+/// Repairs a mesh so that orient() and then subdivision accept it: every edge has one or two faces;
+/// each face has distinct vertices and occurs once; the faces around each vertex form one fan;
+/// every vertex has a face; no interior vertex has only two. The output may be empty.
 ///
 /// Steps, each described at its function:
 ///  1. weld (weld.h);
-///  2. clean each face: walking it, each return to a vertex closes a loop; loops of three corners
-///     or more become faces, shorter ones (repeats, spikes) vanish. A keyhole face becomes its
-///     outline and a lid on its hole;
+///  2. clean each face: in a walk around it, each return to a vertex closes a loop; loops of three
+///     corners or more become faces, shorter ones (repeats, spikes) are dropped. A keyhole face
+///     becomes its outline and a lid on its hole;
 ///  3. drop duplicate faces: the first one stays;
 ///  4. cut edges of three or more faces into sheets, and vertices into one copy per fan
 ///     (manifold.h);
 ///  5. chord interior vertices of two faces (chord.h), and repeat from 3 while that is needed;
 ///  6. remove unused vertices.
-/// Faces without area but with three distinct vertices stay: they are harmless to Doo-Sabin, and
-/// what hangs together through them stays together.
+/// Faces without area but with three distinct vertices stay: Doo-Sabin can deal with them, and they
+/// connect their neighbours.
 ///
-/// Colours are dropped: soundMesh (sound.h) follows them. Vertices and faces keep their order;
-/// copies follow at the end, in order of the vertices they copy. A face that needs nothing keeps
-/// its corners as they are. Winding is never looked at. Copies lie where their original lies, so a
+/// Colours are dropped; soundMesh (sound.h) keeps them. Vertices and faces keep their order; copies
+/// follow at the end, in the order of their originals. A face without faults keeps its corners as
+/// they are. The winding of faces does not matter. Copies lie at the place of their original, so a
 /// second run changes nothing if it does not weld.
 ///
-/// @throws MeshError   the arrays contradict themselves (requireValidArrays)
+/// @throws MeshError   the arrays are not valid (requireValidArrays)
 /// @throws UsageError  the tolerance is negative or not finite
 /// @throws LimitError  more than 2^32 - 2 points would be needed
-/// Cost O(C log C) whatever the mesh; parallel in part, result independent of thread count.
+/// Cost O(C log C) for any mesh. Parallel in part; result independent of thread count.
 PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport& report);
 
 }  // namespace vox

@@ -1,4 +1,4 @@
-// What repair did, in words.
+// Names and summaries of the changes that repair makes.
 
 #include "libvox/prepare/repair.h"
 

@@ -1,4 +1,4 @@
-// Repair and orientation as one step, told in terms of the input.
+// Repair and orientation as one step; its report names elements of the input.
 
 #include "libvox/prepare/sound.h"
 
@@ -17,7 +17,8 @@ void nameInputElements(OrientReport& report, const RepairReport& before) {
   if (report.firstFlipped != kNone) report.firstFlipped = before.faceOrigin[report.firstFlipped];
 }
 
-/// The mean colour of the points welded to each point. Summed in the order of their numbers.
+/// For each point, the mean colour of the points welded to it, summed in the order of their
+/// numbers.
 std::vector<Vec3f> meanOfWelded(const std::vector<Vec3f>& colors,
                                 const std::vector<Index>& weldedTo) {
   std::vector<Vec3d> sums(colors.size(), Vec3d::Zero());

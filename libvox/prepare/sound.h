@@ -7,21 +7,23 @@
 
 namespace vox {
 
-/// What soundMesh did. All elements that both parts name, as origins too, are those of the input.
+/// Changes that soundMesh made. Both parts name elements of the input, also as origins.
 struct SoundReport {
   RepairReport repair;
   OrientReport orient;
 };
 
-/// A mesh that can be subdivided: repaired, then oriented. May be empty. Copies of points and faces
-/// have the colours of what they copy; points that are welded, the mean of theirs.
+/// Repairs and then orients a mesh, so that it can be subdivided. The result may be empty. Copies
+/// of points and faces get the colour of their original; welded points get the mean of their
+/// colours.
 /// @throws MeshError, UsageError, LimitError  as repair and orient
 PolygonMesh soundMesh(PolygonMesh mesh, const RepairOptions& options, SoundReport& report);
 
-/// One line: "dropped 2 duplicate faces, flipped 12 faces"; empty if nothing was done.
+/// Summary in one line: "dropped 2 duplicate faces, flipped 12 faces"; empty if there was no
+/// change.
 std::string summary(const SoundReport& report);
 
-/// The first thing that was done: "dropped face 1, which repeats face 0"; empty if nothing was.
+/// The first change: "dropped face 1, which repeats face 0"; empty if there was none.
 std::string firstAction(const SoundReport& report);
 
 }  // namespace vox

@@ -1,5 +1,5 @@
-// Equal points by sorting; near points through a grid of cells as wide as the tolerance, in which a
-// cell holds few points that stay because they keep their distance from each other.
+// Equal points are found by sorting; near points by a grid of cells as wide as the tolerance. The
+// points that stay are further apart than the tolerance, so a cell holds only a few of them.
 
 #include "libvox/prepare/weld.h"
 
@@ -34,7 +34,7 @@ std::vector<Index> weldEqual(const std::vector<Vec3d>& points, const std::vector
   return target;
 }
 
-/// Integers kept as doubles: exact as far as it matters, and no coordinate overflows.
+/// Coordinates of a cell: integers, stored as doubles so that none overflows.
 using Cell = std::array<double, 3>;
 
 struct CellHash {
@@ -46,7 +46,7 @@ struct CellHash {
   }
 };
 
-/// The points that stayed so far, by cell.
+/// The points that have stayed so far, by cell.
 class NearPoints {
  public:
   NearPoints(const std::vector<Vec3d>& points, double tolerance)
@@ -56,7 +56,7 @@ class NearPoints {
     cellSize_ = std::max(tolerance, largest * 1e-290);  // the quotient stays finite
   }
 
-  /// The lowest-numbered point within the tolerance of v, or kNone.
+  /// The lowest-numbered of these points within the tolerance of v, or kNone.
   Index nearest(Index v) const {
     const Cell centre = cellOf(v);
     Index lowest = kNone;
@@ -75,7 +75,7 @@ class NearPoints {
  private:
   Cell cellOf(Index v) const {
     const Vec3d& p = points_[v];
-    // + 0 turns -0 into +0, which std::hash tells apart.
+    // + 0 turns -0 into +0: std::hash distinguishes them.
     return {std::floor(p.x() / cellSize_) + 0.0, std::floor(p.y() / cellSize_) + 0.0,
             std::floor(p.z() / cellSize_) + 0.0};
   }

@@ -6,14 +6,14 @@
 
 namespace vox {
 
-/// Which point each point is welded to: itself if it stays. Points that are not `used` stay and
-/// attract none.
+/// For each point, the point that it is welded to; itself if it stays. Points that are not `used`
+/// stay, and no point is welded to them.
 ///
 /// Tolerance 0: points with equal coordinates (-0 equals +0) are welded to the lowest-numbered one.
-/// Tolerance > 0: in order of their numbers, each point is welded to the lowest-numbered point that
-/// stayed within the tolerance (Euclidean, in units of the points), or stays if there is none. So
-/// welds never chain: no point moves further than the tolerance, and those that stay are further
-/// apart than it. The result does not depend on thread count.
+/// Tolerance > 0 (Euclidean, in units of the points): the points are visited in order of their
+/// numbers. Each is welded to the lowest-numbered point within the tolerance that has stayed, or
+/// stays if there is none. So welds never chain: no point moves further than the tolerance, and
+/// points that stay are further apart than it. The result does not depend on thread count.
 ///
 /// Cost O(V log V); with a tolerance O(V) expected.
 /// @throws UsageError  the tolerance is negative or not finite

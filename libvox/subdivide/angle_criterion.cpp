@@ -1,4 +1,4 @@
-// How deep neighbouring faces turn little.
+// The levels at which the normals of neighbouring faces differ by little.
 
 #include "libvox/subdivide/angle_criterion.h"
 
@@ -22,7 +22,7 @@ class AngleCriterion : public Criterion {
   int squareDepth(const Patch& partial, int most) const override {
     const Patch patch = continued(partial);
     const PatchSteps steps(partial);
-    constexpr int kMostMeasured = 10;  // where so many vertices turn, it is a fold
+    constexpr int kMostMeasured = 10;  // if 2^10 rows are not enough, the patch has a fold
     return leastDepth(most, [&](int k) {
       return steps.sizeBelow(k, k) <= 1 ||
              (k <= kMostMeasured && largestAngle(patch, std::int64_t{1} << k) <= limit_);
@@ -34,7 +34,7 @@ class AngleCriterion : public Criterion {
   bool fine(const VertexFaces& faces) const override {
     if (largestDiameter(faces) <= 1) return true;
     const Vec3d r = shapeOf(faces.r).normal;
-    const Vec3d l = -shapeOf(faces.l).normal;  // runs round the other way
+    const Vec3d l = -shapeOf(faces.l).normal;  // L is given clockwise
     double largest = 0;
     const auto take = [&](bool exist, const Vec3d& a, const Vec3d& b) {
       if (exist) largest = std::max(largest, angleBetween(a, b));
@@ -47,8 +47,8 @@ class AngleCriterion : public Criterion {
   }
 
  private:
-  /// Of the faces that touch one of n x n descendants, or more than the limit. The closed form goes
-  /// on for one row beyond them.
+  /// Largest angle, in degrees, between neighbouring faces that touch one of the n x n descendants;
+  /// stops at the first angle above the limit. Rows -1 and n, too, are in the closed form.
   double largestAngle(const Patch& patch, std::int64_t n) const {
     std::vector<Vec3d> before, here, normalsBefore, normals;
     double largest = 0;

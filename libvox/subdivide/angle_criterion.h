@@ -6,8 +6,8 @@
 
 namespace vox {
 
-/// At most `limit` degrees between the normals of neighbours, measured between all faces around the
-/// descendants. Faces that fit into a voxel may turn as they like, so that folds come to an end.
+/// Criterion: the normals of neighbouring faces around all descendants differ by at most `limit`
+/// degrees. Faces that fit into a voxel meet it in any case, so that subdivision ends at folds.
 std::unique_ptr<Criterion> angleCriterion(double limit);
 
 }  // namespace vox

@@ -1,4 +1,4 @@
-// Positions and colours refined together, by whole levels of small pieces.
+// Refines positions and colours together: whole levels of small pieces of the mesh.
 
 #include "libvox/subdivide/colored_surface.h"
 
@@ -15,8 +15,8 @@
 namespace vox {
 namespace {
 
-/// Faces cut out of a level in the order they had, with all that belongs to them. Keeping the order
-/// keeps that of the corners around each vertex, and so the bits of every sum below.
+/// Cuts faces out of a level, with their points and adjacency. The faces stay in their order, so
+/// that the corners around each vertex do, and every later sum has the same bits.
 class Cutter {
  public:
   Cutter(const SubdivisionLevel& level, std::vector<Index>& slots, std::vector<Index>& points)
@@ -25,7 +25,7 @@ class Cutter {
     points_.resize(level.mesh.pointCount(), kNone);
   }
 
-  /// Leaves the tables as they were.
+  /// The faces as a level of their own. Resets the tables of the caller afterwards.
   SubdivisionLevel cut(std::span<const Index> faces) {
     SubdivisionLevel piece;
     piece.boundary = from_.boundary;
@@ -42,7 +42,7 @@ class Cutter {
     return piece;
   }
 
-  /// Per point of the last piece: which it was.
+  /// For each point of the last piece, the point of the level.
   const std::vector<Index>& pointOrigin() const { return pointOrigin_; }
 
  private:
@@ -73,9 +73,9 @@ class Cutter {
   std::vector<Index> pointOrigin_;
 };
 
-/// How many samples stand half a voxel apart at most where one step goes so far. Unlike faces of
-/// vertex conversion (stop.h) they need not be small all round, which spares needles most of
-/// theirs.
+/// Number of rows or columns, a power of 2, that are at most half a voxel apart if control points
+/// are `step` voxels apart. Unlike the faces of vertex conversion (stop.h), the faces between them
+/// need not be small in both directions; so needles have far fewer samples.
 std::int64_t samplesFor(double step) {
   constexpr double kMostStep = 0.5;
   std::int64_t n = 1;
@@ -83,10 +83,10 @@ std::int64_t samplesFor(double step) {
   return n;
 }
 
-/// The longest step from row to row, in voxels, and how far from the row before it leads at most.
+/// Steps from row to row of the control points; L-inf, in voxels.
 struct StepAcross {
-  double length = 0;
-  double distance = 0;
+  double length = 0;    ///< of the longest step
+  double distance = 0;  ///< largest distance of a step's end from the line of its row
 };
 
 StepAcross stepAcross(const Patch& patch) {
@@ -107,7 +107,8 @@ StepAcross stepAcross(const Patch& patch) {
   return across;
 }
 
-/// How far a patch lies from a line through two of its points at most, on both sides together.
+/// Upper bound of the width of a patch: twice the largest distance of a control point from a line
+/// through two control points.
 double widthOf(const Patch& patch) {
   const auto farthestFrom = [&](const Vec3d& from) {
     Vec3d farthest = from;
@@ -125,8 +126,8 @@ double widthOf(const Patch& patch) {
   return 2 * most;
 }
 
-/// Gives away what a regular vertex has become. Where its rows and columns run nearly the same way,
-/// as around a face of thousands of sides, a few rows and the outermost columns do.
+/// Gives the sink the descendants of a regular vertex. If rows and columns run nearly the same way,
+/// as around a face of thousands of sides, a few rows and the outermost columns are enough.
 void emitPatch(const Patch& position, const Patch& color, ColoredSink& sink) {
   const Patch turned = quarterTurn(position);
   const StepAcross fromRow = stepAcross(position);
@@ -137,7 +138,7 @@ void emitPatch(const Patch& position, const Patch& color, ColoredSink& sink) {
   const std::int64_t fewRows = std::min(rows, samplesFor(std::min(fromRow.distance, width)));
   const std::int64_t fewColumns =
       std::min(columns, samplesFor(std::min(fromColumn.distance, width)));
-  constexpr std::int64_t kFarFewer = 4;  // times: the rest is not worth it
+  constexpr std::int64_t kFarFewer = 4;  // a smaller factor is not worth it
   if (kFarFewer * std::min(fewRows * columns, fewColumns * rows) > rows * columns)
     return sink.patch(position, color, rows, columns);
   const auto emit = [&](const Patch& p, const Patch& c, std::int64_t few, std::int64_t along,
@@ -154,14 +155,15 @@ void emitPatch(const Patch& position, const Patch& color, ColoredSink& sink) {
     emit(turned, quarterTurn(color), fewColumns, rows, columns);
 }
 
-/// A piece of a level >= 1: gives away what is fine enough or regular, and knows what is left.
+/// A piece of a level >= 1. Emits the vertices that are fine enough or regular, and keeps the
+/// others for the next level.
 class Piece {
  public:
-  /// @param owned  per point: whether it is to be emitted
+  /// @param owned  for each point, whether it is to be emitted
   Piece(ColoredLevel colored, std::vector<std::uint8_t> owned, ColoredSink& sink)
       : colored_(std::move(colored)), owned_(std::move(owned)), sink_(&sink) {}
 
-  /// @return whether any vertex is left
+  /// @return whether a vertex is left for the next level
   bool emit() {
     const PolygonMesh& mesh = colored_.level.mesh;
     inside_.assign(mesh.faceCount(), 0);
@@ -180,7 +182,7 @@ class Piece {
     return left;
   }
 
-  /// What is left, one level down.
+  /// The vertices that are left and the faces around them, one level down.
   Piece next() {
     std::vector<Index> faces;
     for (Index f = 0; f < inside_.size(); ++f)
@@ -226,8 +228,8 @@ class Piece {
     return true;
   }
 
-  /// A face around a vertex that is left, and all that share a vertex with it: one level down the
-  /// faces around its children are complete, and so are their neighbours.
+  /// Adds a face at a vertex that is left, and all faces that share a vertex with it. So one level
+  /// down, the faces around the children of the vertex are complete, and so are their neighbours.
   void addNeighbourhood(Index f) {
     if ((inside_[f] & kExpanded) != 0) return;
     inside_[f] |= kExpanded;
@@ -263,7 +265,7 @@ ColoredLevel firstColoredLevel(const ColoredLevel& base) {
   SubdivisionLevel corners{{}, base.level.adjacency, base.level.boundary};
   corners.mesh.points = base.colors;
   corners.mesh.faceOffsets = base.level.mesh.faceOffsets;
-  corners.mesh.faceVertices = numbered(base.colors.size());  // each corner a point of its own
+  corners.mesh.faceVertices = numbered(base.colors.size());  // each corner has its own point
   return {nextLevel(base.level, imageVertices(base.level)), imageVertices(corners)};
 }
 

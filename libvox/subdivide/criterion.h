@@ -8,26 +8,28 @@
 
 namespace vox {
 
-/// What lies around a vertex at its own level.
+/// The four faces around a vertex at its own level, in the figure of vertex_split.h.
 struct VertexFaces {
-  Vec3d at, next, previous, right, left;  ///< the vertex and those next to it, across R and L
+  /// The vertex; its neighbours in F, beside R and L; its neighbours in the V-face, beside R and L.
+  Vec3d at, next, previous, right, left;
   FaceShape f, vFace;
-  std::array<Vec3d, 4> r, l;  ///< as quads
+  std::array<Vec3d, 4> r, l;  ///< corners of R: at, next, ...; corners of L: at, previous, ...
   bool hasR = true, hasL = true, hasVFace = true;
 };
 
-/// A limit that the polygons are to keep. Lengths in voxels.
+/// A limit for polygons, one kind of stop rule. Depths are numbers of levels below a vertex.
+/// Lengths in voxels. Const and thread-safe.
 class Criterion {
  public:
   virtual ~Criterion() = default;
-  /// Levels at which all that becomes of a regular vertex keeps it, the same along u and v; at most
-  /// `most`.
+  /// Least depth, the same along u and v, at which all descendants of a regular vertex meet the
+  /// limit; at most `most`.
   virtual int squareDepth(const Patch& patch, int most) const = 0;
-  /// The same with as few descendants as different depths along u and v make possible.
+  /// The same, but the depths along u and v may differ if that gives fewer descendants.
   virtual VertexDepth regularDepth(const Patch& patch, int most) const = 0;
-  /// Whether an irregular vertex keeps it as it stands.
+  /// Whether an irregular vertex meets the limit at its own level.
   virtual bool fine(const VertexFaces& faces) const = 0;
-  /// Levels at which a boundary curve does.
+  /// Least depth at which a boundary curve meets the limit; at most `most`.
   virtual int curveDepth(const CurvePoints&, int /*most*/) const { return 0; }
 };
 

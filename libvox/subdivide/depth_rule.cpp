@@ -1,4 +1,4 @@
-// How deep vertices are subdivided for a stop rule: as the first of its limits to be kept says.
+// The depth of vertices by a stop rule: that of the limit that is met first.
 
 #include "libvox/subdivide/depth_rule.h"
 

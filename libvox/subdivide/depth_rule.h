@@ -11,25 +11,28 @@
 
 namespace vox {
 
-/// Boundary points across R and L of a vertex next to the boundary of an extended surface, each
-/// with its neighbours: they go as deep as the vertex does along u and along v.
+/// Boundary points across R and L of a vertex beside the boundary of an extended surface, each with
+/// its two neighbours along the boundary. They are refined as deep as the vertex is along u (across
+/// R) and v (across L).
 struct BoundaryCurves {
   std::optional<CurvePoints> acrossR, acrossL;
 };
 
-/// How deep level-1 vertices go for a stop rule, each from its own surroundings. For each limit the
-/// depth at which all descendants and the faces around them keep it; the least of these.
+/// The depth of level-1 vertices by a stop rule; it depends only on the faces around the vertex.
+/// For each limit there is a least depth at which all descendants and the faces around them meet
+/// it. The least of these depths counts, but at most that of the limit `levels`. Thread-safe.
 class DepthRule {
  public:
-  /// @param rule  with a limit besides levels, or levels >= 1
+  /// @param rule  must have a limit besides `levels`, or levels >= 1
   explicit DepthRule(const StopRule& rule);
 
-  /// @param faces  of an irregular vertex, or null
+  /// Depth of a level-1 vertex.
+  /// @param faces  the faces around an irregular vertex; null for a regular one
   VertexDepth of(const LevelOneVertex& vertex, const VertexFaces* faces,
                  const BoundaryCurves& curves) const;
 
-  /// Depth that would do for a regular vertex within the array of another, if that is less than its
-  /// own.
+  /// Depth that is enough for a block of an array (VertexArray).
+  /// @param own  depth of the block; returned if no limit needs fewer vertices
   VertexDepth within(const Patch& patch, VertexDepth own) const;
 
  private:

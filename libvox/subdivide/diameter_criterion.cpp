@@ -1,4 +1,4 @@
-// How deep faces become as small as a limit.
+// The levels at which faces are as small as a limit.
 
 #include "libvox/subdivide/diameter_criterion.h"
 

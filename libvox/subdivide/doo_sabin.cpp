@@ -18,14 +18,14 @@ namespace {
 
 constexpr Index kCornersPerTask = 4096;
 
-/// Where the children of the corners of one level stand in the next.
+/// Numbers of the new faces and corners of the next level.
 struct ChildLayout {
   Index edgeFaces = 0;          ///< number of E-faces
   Index vertexFaces = 0;        ///< number of whole V-faces
-  std::vector<Index> boundary;  ///< boundary corners that get half faces; k names both faces
-  std::vector<Index> edge;      ///< per edge leader: number of its E-face
-  std::vector<Index> vFace;     ///< per V-face leader: number of its V-face, else kNone; half ones
-                                ///< come last and are led by their boundary corner
+  std::vector<Index> boundary;  ///< boundary corners; number k has half E-face k and half V-face k
+  std::vector<Index> edge;      ///< per corner that leads an edge: number of the E-face
+  std::vector<Index> vFace;     ///< per corner that leads a one-ring: number of the V-face, else
+                                ///< kNone; half V-faces come last, led by the boundary corner
   std::vector<Index> vFaceOffset;  ///< per V-face, + 1: first slot of the V-faces' corners
   std::vector<Index> vFaceSlot;    ///< per corner: its slot among the V-faces' corners, or kNone
 
@@ -52,7 +52,8 @@ void placeVFaceSlots(const SubdivisionLevel& level, ChildLayout& layout) {
   });
 }
 
-/// The half V-face of a boundary corner: its fan of corners and two points on the boundary.
+/// Numbers the half V-faces: one for each boundary corner, with its fan of corners and two points
+/// on the boundary.
 void placeHalfVertexFaces(const SubdivisionLevel& level, ChildLayout& layout) {
   layout.boundary = boundaryCorners(level.adjacency);
   for (Index k = 0; k < layout.halfFaces(); ++k) {
@@ -194,8 +195,8 @@ class ChildTopology {
     return leadsEdge(adjacency_, y) ? edgeCorner(y, 1) : edgeCorner(adjacency_.twin[y], 3);
   }
 
-  /// What the E-face edge into corner x faces across the vertex: the V-face, or at a vertex with
-  /// two faces the other E-face, or nothing at the boundary.
+  /// Twin of the E-face edge that ends at corner x of the old level: the corner of the V-face; at a
+  /// vertex with two faces the one of the other E-face; kNone at the boundary.
   Index acrossVertex(Index x) const {
     if (layout_.vFaceSlot[x] != kNone) return vFaceCorner(x);
     const Index y = nextAroundVertex(mesh_, adjacency_, x);

@@ -1,4 +1,4 @@
-// Subdivision around isolated faces that are not quads, a level at a time.
+// Subdivision around isolated faces that are not quads, level by level.
 
 #include "libvox/subdivide/extraordinary.h"
 
@@ -20,7 +20,7 @@ double faceDiameter(const ExtraordinaryFace& face, std::vector<Vec3d>& work) {
   return diameter(work);
 }
 
-/// Diameter of the face across the edge i, i+1; of a mirrored one, of its real half.
+/// Diameter of the face across the edge i, i+1; of its real half if it is mirrored.
 double edgeDiameter(const ExtraordinaryFace& face, std::size_t i) {
   const Vec3d& a = face.inner[i];
   const Vec3d& b = face.inner[face.after(i)];
@@ -31,7 +31,7 @@ double edgeDiameter(const ExtraordinaryFace& face, std::size_t i) {
   return diameter(a, b, face.far[i], face.near[i]);
 }
 
-/// Largest diameter of the faces that touch corner i only or across an edge.
+/// Largest diameter of the faces at corner i, without the polygon itself.
 double diameterAround(const ExtraordinaryFace& face, std::size_t i) {
   const std::size_t j = face.before(i);
   double size = 0;
@@ -42,7 +42,7 @@ double diameterAround(const ExtraordinaryFace& face, std::size_t i) {
   return size;
 }
 
-/// The surroundings of corner i one level down.
+/// Sets the surroundings of corner i one level down, from one step at this corner.
 void descend(const VertexSplit& split, std::size_t i, ExtraordinaryFace& next) {
   const std::size_t j = next.before(i);
   next.near[i] = split.r[0];
@@ -147,7 +147,7 @@ VertexSplit BoundaryCorner::split() const {
 
 BoundaryCorner BoundaryCorner::below(const VertexSplit& split) const {
   const TriangleImages t(u, mStart, mEnd);
-  // Besides, the children of the strips' corners.
+  // mRight and mLeft: the children of the corners of the strips.
   return {t.u,
           t.mStart,
           t.mEnd,

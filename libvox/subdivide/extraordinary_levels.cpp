@@ -1,4 +1,4 @@
-// The surroundings of an extraordinary face, level by level.
+// An extraordinary face and the points around it, level by level.
 
 #include "libvox/subdivide/extraordinary_levels.h"
 
@@ -7,7 +7,7 @@
 namespace vox {
 namespace {
 
-/// One step at all corners.
+/// One step at all corners at once.
 ExtraordinaryFace below(const ExtraordinaryFace& face, FaceImages& images) {
   ExtraordinaryFace next = face;
   images.of(face.inner, next.inner);

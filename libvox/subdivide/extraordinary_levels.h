@@ -7,23 +7,24 @@
 
 namespace vox {
 
-/// The levels of an extraordinary face from 2 on, each made when somebody asks for it; O(n) per
-/// level. Corners whose surroundings are not known at the first level have none below.
+/// An extraordinary face of level 2 and its images at the levels below. A level is made when it is
+/// first used; cost O(n) for each. A corner whose surroundings are not set at level 2 has none at
+/// the levels below. One object per thread.
 class ExtraordinaryLevels {
  public:
   struct Level {
     ExtraordinaryFace face;
-    FaceShape shape;  ///< of its polygon
+    FaceShape shape;  ///< of the polygon
   };
 
-  /// Begins again with level 2.
+  /// Replaces the face of level 2.
   void start(ExtraordinaryFace face);
 
-  /// l levels below the first; valid until start.
-  /// @throws LimitError  l is beyond any range
+  /// The face of level 2 + l. The reference is valid until start.
+  /// @throws LimitError  there are too many levels (requireLevelInRange)
   const Level& level(int l);
 
-  /// One step at corner i of level l.
+  /// One step at corner i of level(l).
   VertexSplit split(int l, std::size_t i) {
     const ExtraordinaryFace& next = level(l + 1).face;
     return level(l).face.splitAt(next.inner, i);
@@ -32,7 +33,7 @@ class ExtraordinaryLevels {
  private:
   void addLevel(ExtraordinaryFace face);
 
-  std::deque<Level> levels_;  // references stay valid
+  std::deque<Level> levels_;  // a deque: references stay valid
   FaceImages images_;
 };
 

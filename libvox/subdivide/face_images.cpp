@@ -1,4 +1,4 @@
-// Image vertices of one face.
+// Image vertices of a single face.
 // D. Doo, M. Sabin, Behaviour of recursive division surfaces near extraordinary points, 1978.
 
 #include "libvox/subdivide/face_images.h"

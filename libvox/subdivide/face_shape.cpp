@@ -14,7 +14,7 @@
 namespace vox {
 namespace {
 
-/// Of the real corners and the two points where the mirror cuts the polygon.
+/// Diameter of the real corners and the two midpoints at which the real half of the polygon ends.
 double realDiameter(std::span<const Vec3d> corners, std::size_t real) {
   Vec3d low = middle(corners.front(), corners.back());
   Vec3d high = low;

@@ -6,20 +6,21 @@
 
 namespace vox {
 
-/// What stop rules ask of a face. Lengths in the unit of its points.
+/// Measures of a face for stop rules. Lengths in the unit of its points.
 struct FaceShape {
-  double diameter = 0;           ///< L-inf; of a mirrored polygon, of its real half
+  double diameter = 0;           ///< L-inf; only of the real half of a mirrored polygon
   double height = 0;             ///< largest distance of a corner from the mean plane
   Vec3d normal = Vec3d::Zero();  ///< unit, by the area vector; 0 for a face without area
 };
 
-/// @param real  corners that are not mirror images (ExtraordinaryFace)
+/// Shape of a face with 3 corners or more.
+/// @param real  number of corners that are not mirror images (ExtraordinaryFace)
 FaceShape shapeOf(std::span<const Vec3d> corners, std::size_t real);
 inline FaceShape shapeOf(std::span<const Vec3d> corners) {
   return shapeOf(corners, corners.size());
 }
 
-/// Degrees between two unit normals; 0 if one is 0.
+/// Angle between two unit normals, in degrees; 0 if one of them is 0.
 double angleBetween(const Vec3d& a, const Vec3d& b);
 
 }  // namespace vox

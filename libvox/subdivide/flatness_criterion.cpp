@@ -1,4 +1,4 @@
-// How deep polygons lie close to the surface.
+// The levels at which polygons are close to the surface.
 
 #include "libvox/subdivide/flatness_criterion.h"
 
@@ -20,12 +20,13 @@ double halved(double length, int times) {
   return std::ldexp(length, -times);
 }
 
-/// Second differences of a patch, at their largest: along its normal, with what may turn into it.
+/// Largest second differences of a patch, measured along its mean normal; their tangential parts
+/// count times `sine`.
 struct PatchBends {
   double uu = 0, vv = 0, uv = 0;
-  double sine = 0;  ///< of the largest angle between the mean normal and another
+  double sine = 0;  ///< of the largest angle between the mean normal and another normal
 
-  /// @param patch  complete
+  /// @param patch  with all four faces
   explicit PatchBends(const Patch& patch) {
     const auto& p = patch.points;
     const Vec3d normal = normalOf(p[2][1] - p[0][1], p[1][2] - p[1][0]);
@@ -44,8 +45,8 @@ struct PatchBends {
   }
 
  private:
-  /// Of the angles between a normal and those of the four faces at their corners; 1 if one turns
-  /// over.
+  /// Largest sine of the angles between a normal and the normals of the four faces at their
+  /// corners; 1 if one of these angles is 90 degrees or more.
   static double largestSine(const Patch& patch, const Vec3d& normal) {
     const auto& p = patch.points;
     double largest = 0;
@@ -102,7 +103,7 @@ class FlatnessCriterion : public Criterion {
            limit_;
   }
 
-  /// Where the patch turns much, its parts have better normals to measure along.
+  /// If the patch turns much, measures its children, each along its own normal.
   int squareDepth(const Patch& patch, int most, int splits) const {
     constexpr double kTurnsMuch = 0.1;
     const PatchBends bends(patch);

@@ -6,12 +6,12 @@
 
 namespace vox {
 
-/// Polygons within `limit` of the surface. With second differences Duu, Dvv and twists Duv of the
-/// control points, the faces of a regular vertex, cut along a diagonal, and the surface differ by
-/// at most (4^-u |Duu| + 4^-v |Dvv|) / 8 + 2^-(u+v) |Duv| / 4 where they have the same parameters.
-/// Of that, only what points along the normal is distance, as far as the normal is one: tangential
-/// parts count by the sine of the angle between the patch's mean normal and the farthest of its
-/// faces.
+/// Criterion: polygons are within `limit` of the surface. Let Duu and Dvv be second differences of
+/// the control points of a patch, and Duv their twists. At depths u and v, a face, cut along a
+/// diagonal, and the surface differ at equal parameters by at most
+/// (4^-u |Duu| + 4^-v |Dvv|) / 8 + 2^-(u+v) |Duv| / 4. Only the part of it along the mean normal of
+/// the patch counts in full. The tangential part counts times the sine of the largest angle between
+/// the mean normal and the normal of a face.
 std::unique_ptr<Criterion> flatnessCriterion(double limit);
 
 }  // namespace vox

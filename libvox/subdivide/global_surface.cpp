@@ -1,4 +1,4 @@
-// Whole levels, and for each vertex how many more it needs.
+// Subdivides whole levels, and notes for each vertex how many more levels it needs.
 
 #include "libvox/subdivide/global_surface.h"
 
@@ -16,11 +16,11 @@
 namespace vox {
 namespace {
 
-/// Levels that a vertex still needs; or one of these.
-constexpr int kUndecided = -1;  ///< irregular, and not fine enough
+// In place of the number of levels that a vertex still needs:
+constexpr int kUndecided = -1;  ///< it is irregular and not fine enough
 constexpr int kEmitted = -2;    ///< it or an ancestor has been emitted
 
-/// One level >= 1 and what its vertices need.
+/// Decides for one level >= 1 how many more levels each vertex needs.
 class Decisions {
  public:
   Decisions(const SubdivisionLevel& level, int number, std::vector<int> levelsToGo,
@@ -67,7 +67,7 @@ class Decisions {
       levelsToGo_[v] = 1;
   }
 
-  /// Of a thin patch some vertices go out, in closed form, and none from levels of the mesh.
+  /// A thin patch is emitted at once, in closed form; no vertices of it come from later levels.
   void decideRegular(Index v, const Patch& patch) {
     levelsToGo_[v] = patchDepth(patch);
     if (!thinPatch(patch, levelsToGo_[v])) return;
@@ -96,11 +96,12 @@ class Decisions {
   const Adjacency& adjacency_;
   bool strips_;
   std::vector<int> levelsToGo_;
-  std::vector<Index> cornerAt_;  // the lowest at each vertex
+  std::vector<Index> cornerAt_;  // lowest corner at each vertex
   std::vector<bool> onBoundary_;
 };
 
-/// Emits the vertices that are there, and says what the points of the next level need.
+/// Emits the vertices that need no further level.
+/// @return for each point of the next level, the number of levels that it needs
 std::vector<int> emitLevel(const SubdivisionLevel& level, const std::vector<int>& levelsToGo,
                            int number, SurfaceSink& sink) {
   std::vector<Vec3d> finished;

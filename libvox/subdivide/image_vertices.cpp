@@ -16,7 +16,7 @@ namespace {
 
 constexpr Index kFacesPerTask = 1024;
 
-/// Images of the faces of a level one after the other.
+/// Computes the images of the faces of a level, one face after another.
 class LevelImages {
  public:
   LevelImages(const SubdivisionLevel& level, std::vector<Vec3d>& image)

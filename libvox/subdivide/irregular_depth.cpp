@@ -1,4 +1,4 @@
-// How deep an irregular vertex goes: its children, level by level.
+// The depth of an irregular vertex: the largest of the depths of its children, level by level.
 
 #include "libvox/subdivide/irregular_depth.h"
 
@@ -10,7 +10,7 @@
 namespace vox {
 namespace {
 
-/// The faces around corner i of a level.
+/// The faces around corner i of an extraordinary face.
 VertexFaces facesOf(const ExtraordinaryLevels::Level& level, std::size_t i) {
   const ExtraordinaryFace& face = level.face;
   const std::size_t j = face.before(i);
@@ -50,7 +50,7 @@ VertexFaces facesOf(const BoundaryCorner& corner) {
   return faces;
 }
 
-/// Levels below an irregular vertex for one criterion. What is found on the way down only rises.
+/// Depth of an irregular vertex for one criterion: depth_ only rises while descendants are visited.
 class IrregularDepth {
  public:
   IrregularDepth(const Criterion& criterion, int most) : criterion_(criterion), most_(most) {}
@@ -76,7 +76,7 @@ class IrregularDepth {
   }
 
  private:
-  /// A regular vertex, some levels down.
+  /// Takes a regular vertex that is `below` levels down.
   void take(const Patch& patch, int below) {
     if (below < most_)
       depth_ = std::max(depth_, below + criterion_.squareDepth(patch, most_ - below));

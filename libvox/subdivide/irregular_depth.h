@@ -5,9 +5,9 @@
 
 namespace vox {
 
-/// Levels at which all that becomes of an irregular vertex keeps a criterion; at most `most`.
-/// Around an extraordinary face: the regular vertices of its levels, and where the levels end its
-/// own surroundings.
+/// Least depth at which all descendants of an irregular level-1 vertex meet a criterion; at most
+/// `most`. Around an extraordinary face, these are the regular vertices of each level, and the
+/// corner of the face at the last level.
 /// @throws LimitError  as ExtraordinaryLevels
 int irregularDepth(const Criterion& criterion, const LevelOneVertex& vertex,
                    const VertexFaces& faces, int most);

@@ -6,13 +6,14 @@
 
 namespace vox {
 
-// The least depth at which something holds.
+// Least depths at which a condition holds.
 
+/// The same depth along u and v.
 inline VertexDepth squareOf(int k) {
   return {static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(k)};
 }
 
-/// Least k <= most for which fine(k) holds, else most.
+/// Least k < most for which fine(k) holds; `most` if there is none.
 template <class Fine>
 int leastDepth(int most, Fine&& fine) {
   int k = 0;
@@ -20,8 +21,9 @@ int leastDepth(int most, Fine&& fine) {
   return k;
 }
 
-/// From the least depth that is the same along u and v, lessens one axis and then the other, both
-/// ways round. Calls fine(u, v).
+/// Depths along u and v at which fine(u, v) holds, with few vertices. Starts from the least equal
+/// depths; lowers one axis as far as possible and then the other. Tries both orders of the axes and
+/// returns the better result.
 template <class Fine>
 VertexDepth leastDepths(int most, Fine&& fine) {
   const int k = leastDepth(most, [&](int depth) { return fine(depth, depth); });

@@ -5,11 +5,11 @@
 
 namespace vox {
 
-/// What the next Doo-Sabin step does at boundary edges.
+/// How the next Doo-Sabin step treats boundary edges.
 enum class BoundaryStage {
-  kPlain,   ///< nothing: there are none, or the mesh may shrink from them
-  kExtend,  ///< level 0: it adds half faces along them, out to the boundary curve
-  kStrips,  ///< level >= 1: faces with a boundary edge are strip faces
+  kPlain,   ///< it ignores them: there are none, or the mesh shrinks from its boundary
+  kExtend,  ///< level 0 of an extended mesh: it adds half faces out to the boundary curve
+  kStrips,  ///< level >= 1 of an extended mesh: faces with a boundary edge are strip faces
 };
 
 /// One level of a subdivided mesh.

@@ -1,4 +1,4 @@
-// Level 1 around the faces of a submesh.
+// Level 1 around the faces of a submesh: points, V-faces, E-faces.
 
 #include "libvox/subdivide/local_images.h"
 
@@ -63,8 +63,8 @@ Vec3d LocalImages::imageAt(Index corner) {
   return images_[slotOfFace(f) + corner - base_.mesh.faceOffsets[f]];
 }
 
-/// Lists the corners around a vertex in fan_, from a start that does not depend on the corner it
-/// begins to search at: the lowest one, or the first one of an open fan.
+/// Lists the corners around a vertex in fan_: from the lowest one on, or from the first one of an
+/// open fan. So the list does not depend on the corner at which the search begins.
 /// @return whether the fan is closed
 bool LocalImages::findFan(Index corner) {
   const auto walk = [&](Index start) {
@@ -109,7 +109,7 @@ void LocalImages::addVFace(Index corner) {
   vFaces_.push_back(vFace);
 }
 
-/// Adds what lies beyond the boundary: the fan becomes half of a polygon.
+/// Adds the mirrored half of the V-face of an open fan.
 void LocalImages::closeFan(VFace& vFace) {
   const PolygonMesh& mesh = base_.mesh;
   const auto pointOf = [&](Index c) -> const Vec3d& { return mesh.points[mesh.faceVertices[c]]; };
@@ -126,7 +126,7 @@ void LocalImages::closeFan(VFace& vFace) {
   const Vec3d c = middle(vFace.mStart, vFace.mEnd);
   const Vec3d d = (vFace.mStart - vFace.mEnd) / 2.0;
   const std::vector<StripWeight> weights = stripWeights(vFace.fan);
-  // Next to the boundary with the same bits as in the faces across its edges.
+  // The first and last centre have the same bits as in mirrorEdge.
   const auto centre = [&](Index i) -> Vec3d {
     if (i == 0) return vFace.mStart;
     return i + 1 == vFace.fan ? vFace.mEnd : Vec3d(c + weights[i].ratio * d);
@@ -135,7 +135,8 @@ void LocalImages::closeFan(VFace& vFace) {
     vFacePoints_.push_back(mirrored(vFacePoints_[vFace.begin + i], centre(i)));
 }
 
-/// All faces around own vertices are known.
+/// Sets the E-face across the edge of a corner. The faces around the vertices of the submesh are
+/// known at this point.
 void LocalImages::addEdge(Index slot, Index next, Index corner) {
   const Index t = base_.adjacency.twin[corner];
   EdgeFace& edge = edges_[slot];
@@ -155,7 +156,7 @@ void LocalImages::addEdge(Index slot, Index next, Index corner) {
                                 : diameter(images_[slot], images_[next], edge.near, edge.far);
 }
 
-/// The face beyond an edge at an extended boundary.
+/// Sets the mirrored half E-face across a boundary edge of an extended surface.
 void LocalImages::mirrorEdge(Index slot, Index next, Index corner) {
   const PolygonMesh& mesh = base_.mesh;
   const Vec3d& v = mesh.points[mesh.faceVertices[corner]];

@@ -8,50 +8,50 @@
 
 namespace vox {
 
-/// Level 1 of a submesh: the images of its faces, of its one-ring as far as somebody asks, and the
-/// faces that they form around edges and vertices. The base mesh is only read; work arrays are kept
-/// from one submesh to the next. Whatever the submesh, an image has the same bits.
+/// Level 1 of a submesh: the image vertices of its faces and of the faces of its one-ring, and the
+/// V-faces and E-faces that they form. The base mesh is only read. Work arrays are kept from one
+/// submesh to the next. An image vertex has the same bits in every submesh. One object per thread.
 class LocalImages {
  public:
-  /// The level-1 face around a vertex: its V-face, or at the boundary of an extended surface the
-  /// half V-face with its mirror image: n = 2m corners for m > 1 faces, of which the first m are
-  /// real.
+  /// The V-face of a vertex. At the boundary of an extended surface: the half V-face with its
+  /// mirror image, a polygon of 2m corners for a fan of m > 1 faces; the first m corners are real.
   struct VFace {
-    Index begin = 0;  ///< of its points in vFacePoints
-    Index size = 0;   ///< n; with m = 1, or without a V-face (at a free boundary), the fan itself
-    Index fan = 0;    ///< m, real corners
-    bool closed = false;
-    double diameter = 0;           ///< of its real half, with the two points on the boundary
-    Vec3d mStart = Vec3d::Zero();  ///< the point on the boundary edge that leaves
-    Vec3d mEnd = Vec3d::Zero();    ///< and on the one that arrives
+    Index begin = 0;               ///< index of its first point in vFacePoints
+    Index size = 0;                ///< number of its points: 2m if it has a mirror image, else m
+    Index fan = 0;                 ///< m, the number of real corners
+    bool closed = false;           ///< whether the vertex is interior
+    double diameter = 0;           ///< L-inf; of the real half, with the two points on the boundary
+    Vec3d mStart = Vec3d::Zero();  ///< point on the boundary edge that leaves the vertex
+    Vec3d mEnd = Vec3d::Zero();    ///< point on the boundary edge that arrives at the vertex
 
-    /// Of the points beside the one at a place, counter-clockwise.
+    /// Indices in vFacePoints of the points before and after the one at a place, counter-clockwise.
     Index before(Index place) const { return begin + (place == 0 ? size : place) - 1; }
     Index after(Index place) const { return begin + (place + 1 == size ? 0 : place + 1); }
   };
-  /// The level-1 face across the edge of a corner, or the mirrored half face at an extended
-  /// boundary.
+  /// The E-face across the edge of a corner. At an extended boundary: the half E-face with its
+  /// mirror image.
   struct EdgeFace {
-    Vec3d near = Vec3d::Zero();  ///< the point across from the corner
-    Vec3d far = Vec3d::Zero();   ///< the point across from the next corner
-    double diameter = 0;         ///< of its real half
-    bool exists = true;
-    bool interior = false;  ///< no boundary edge
+    Vec3d near = Vec3d::Zero();  ///< neighbour, in this face, of the image vertex of the corner
+    Vec3d far = Vec3d::Zero();   ///< neighbour of the image vertex of the next corner
+    double diameter = 0;         ///< L-inf; of the real half
+    bool exists = true;          ///< false at a free boundary
+    bool interior = false;       ///< whether the edge is interior
   };
 
   /// @param base  level 0: an oriented manifold with one fan of faces at each vertex
   explicit LocalImages(const SubdivisionLevel& base);
 
-  /// Replaces the submesh. Cost: its corners, and those of its one-ring.
+  /// Replaces the submesh. Cost linear in the corners of the submesh and its one-ring.
+  /// @param faces  of the base; the span must stay valid until the next call
   void set(std::span<const Index> faces);
 
   const SubdivisionLevel& base() const { return base_; }
   std::span<const Index> faces() const { return faces_; }
   bool extends() const { return base_.boundary == BoundaryStage::kExtend; }
 
-  /// Slots 0 .. ownSlots() - 1 are the corners of the submesh, face by face.
+  /// Number of corners of the submesh. Their slots are 0 .. ownSlots() - 1, face by face.
   Index ownSlots() const { return ownSlots_; }
-  /// Of a face of the submesh, its first one.
+  /// Slot of the first corner of a face of the submesh.
   Index firstSlot(Index face) const { return firstSlot_[face]; }
   const Vec3d& image(Index slot) const { return images_[slot]; }
   std::span<const Vec3d> imagesOfFace(Index firstSlot, Index size) const {
@@ -63,8 +63,8 @@ class LocalImages {
   Index placeInVFace(Index slot) const { return placeInVFace_[slot]; }
 
   const std::vector<VFace>& vFaces() const { return vFaces_; }
-  /// Level-1 points around the vertices, counter-clockwise; a fan starts at the boundary edge that
-  /// leaves the vertex.
+  /// Points of the V-faces, counter-clockwise; an open fan starts at the boundary edge that leaves
+  /// the vertex.
   const std::vector<Vec3d>& vFacePoints() const { return vFacePoints_; }
 
  private:
@@ -81,7 +81,7 @@ class LocalImages {
   std::span<const Index> faces_;
   Index ownSlots_ = 0;
   std::vector<Index> firstSlot_;  // per face of the base, or kNone
-  std::vector<Index> known_;      // faces that have slots
+  std::vector<Index> known_;      // faces with slots
   std::vector<Index> vFaceAt_;    // per vertex of the base, or kNone
   std::vector<Vec3d> images_;
   std::vector<EdgeFace> edges_;

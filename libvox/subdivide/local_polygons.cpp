@@ -1,4 +1,4 @@
-// From the faces of a submesh to polygons.
+// Polygons of the faces of a submesh.
 
 #include "libvox/subdivide/local_polygons.h"
 
@@ -8,7 +8,7 @@
 namespace vox {
 namespace {
 
-/// Arrays of more vertices leave as tiles.
+/// An array with more than 2^12 vertices goes to the sink as tiles.
 constexpr int kMostLog2OfPiece = 12;
 
 SideRow sideOfNext(const VertexArray& array) {
@@ -41,7 +41,8 @@ void setPointsAcrossR(const VertexArray& array, const CurvePoints& curve, std::i
   for (Vec3d& point : row.points) point = onCurve(curve, first++, array.sizeU());
 }
 
-/// Across L from (0, j), against the direction of the boundary.
+/// Boundary points across L from the vertices (0, j), j = first, first + 1, ..., against the
+/// direction of the boundary.
 void setPointsAcrossL(const VertexArray& array, const CurvePoints& curve, std::int64_t first,
                       PointRow& row) {
   if (row.hasNormals) array.normalsAcrossL(first, row.normals);
@@ -112,9 +113,11 @@ void LocalPolygons::setArray(const Corner& corner, VertexArray& array, bool& who
   whole = vertex.whole();
 }
 
-// Vertices beyond the submesh: without normals, as far as their points are wanted.
+// The arrays of level-1 vertices beyond the submesh. With normals they are whole; without, only the
+// points that the strips and polygons use are right (LevelOneVertex).
 
-/// Of the corner across the edge of another, at its vertex.
+/// Sets other_ to the array of the corner `beyond`, which lies across the edge of `corner`, at the
+/// same vertex.
 void LocalPolygons::setAcrossR(const Corner& corner, Index beyond) {
   if (row_.hasNormals)
     other_.set(vertices_.at(vertices_.cornerOf(beyond)), depths_[beyond], true);
@@ -122,7 +125,7 @@ void LocalPolygons::setAcrossR(const Corner& corner, Index beyond) {
     other_.set(vertices_.acrossR(corner), depths_[beyond]);
 }
 
-/// Of its twin.
+/// Sets otherFar_ to the array of the twin of `corner`.
 void LocalPolygons::setAcrossRFromNext(const Corner& corner, Index twin) {
   if (row_.hasNormals)
     otherFar_.set(vertices_.at(vertices_.cornerOf(twin)), depths_[twin], true);
@@ -130,7 +133,7 @@ void LocalPolygons::setAcrossRFromNext(const Corner& corner, Index twin) {
     otherFar_.set(vertices_.acrossRFromNext(corner), depths_[twin]);
 }
 
-/// Of a corner of a vFace.
+/// Sets other_ to the array of a corner of a V-face.
 void LocalPolygons::setInVFace(Index number, Index place, Index corner) {
   const SubdivisionLevel& base = vertices_.images().base();
   const bool quad = base.mesh.faceSize(base.adjacency.cornerFace[corner]) == 4;
@@ -163,7 +166,7 @@ void LocalPolygons::emitFace(const Corner& first, PolygonPieces& pieces, Polygon
   pieces.addPolygon(polygon_);
 }
 
-/// The faces within an array; where faces are missing around its vertex there are none.
+/// Emits the faces within an array; there are none if a face around its vertex is missing.
 void LocalPolygons::emitArray(const VertexArray& array, bool whole, PolygonPieces& pieces,
                               PolygonSink& sink) {
   if (!whole || array.depth().u == 0 || array.depth().v == 0) return;
@@ -171,7 +174,7 @@ void LocalPolygons::emitArray(const VertexArray& array, bool whole, PolygonPiece
   emitGrid(array, pieces, sink);
 }
 
-/// The faces between all vertices of an array.
+/// Emits the faces between all vertices of an array.
 void LocalPolygons::emitGrid(const VertexArray& array, PolygonPieces& pieces, PolygonSink& sink) {
   if (array.depth().u + array.depth().v > kMostLog2OfPiece) {
     sink.tiles(ArrayTiles(std::make_shared<const VertexArray>(array)));
@@ -189,7 +192,7 @@ void LocalPolygons::emitGrid(const VertexArray& array, PolygonPieces& pieces, Po
   pieces.breathe();
 }
 
-/// The array of an irregular vertex block by block, if that saves much.
+/// Emits the array of an irregular vertex block by block, if that saves many vertices.
 /// @return whether it does
 bool LocalPolygons::emitBlocks(const VertexArray& array, PolygonPieces& pieces, PolygonSink& sink) {
   if (rule_ == nullptr) return false;
@@ -199,7 +202,7 @@ bool LocalPolygons::emitBlocks(const VertexArray& array, PolygonPieces& pieces, 
   bool saves = false;
   for (const VertexArray::Block& block : array.blocks()) {
     VertexDepth least = rule_->within(block.patch, block.depth);
-    // The outermost rows stay, 4 x 2^u vertices.
+    // The outermost rows of the block stay: 4 x 2^u vertices.
     const bool much = block.depth.u > kLeastSaving + 1 &&
                       log2Vertices(least) + kLeastSaving <= log2Vertices(block.depth);
     if (!much) least = block.depth;
@@ -218,7 +221,7 @@ bool LocalPolygons::emitBlocks(const VertexArray& array, PolygonPieces& pieces, 
   return true;
 }
 
-/// Between the outermost rows of a block and the fewer vertices within.
+/// Emits the faces between the outermost rows of a block and the fewer vertices within (inner_).
 void LocalPolygons::emitRim(const VertexArray& array, const VertexArray::Block& block,
                             PolygonPieces& pieces) {
   const auto alongV = [&](std::int64_t i) {
@@ -237,7 +240,7 @@ void LocalPolygons::emitRim(const VertexArray& array, const VertexArray::Block& 
   stitch(alongU(block.endV() - 1), sideOfPrevious(inner_), pieces);
 }
 
-/// The faces between a block and those that come after it along u and v.
+/// Emits the faces between a block and the next blocks along u and v.
 void LocalPolygons::emitSeams(const VertexArray& array, const VertexArray::Block& block,
                               PolygonPieces& pieces) {
   constexpr std::int64_t kFaces = 1024;
@@ -265,8 +268,8 @@ void LocalPolygons::emitSeams(const VertexArray& array, const VertexArray::Block
         [&](std::int64_t i) { row_.setAlongU(array, block.endV() - 1, block.u + i); });
 }
 
-/// What a corner owns across its edge: the strip to the corner beyond, at the same vertex, and for
-/// the first of the two corners of the edge the E-face.
+/// Emits the faces that a corner owns across its edge: the strip to the corner beyond at the same
+/// vertex and, if the corner is the lower one of the edge, the E-face.
 void LocalPolygons::emitEdge(const Corner& c, const VertexArray& here, const VertexArray& next,
                              PolygonPieces& pieces) {
   const SubdivisionLevel& base = vertices_.images().base();
@@ -286,7 +289,7 @@ void LocalPolygons::emitEdge(const Corner& c, const VertexArray& here, const Ver
   pieces.addPolygon(row_);
 }
 
-/// The strips to the boundary points of a boundary edge, and the half E-face between them.
+/// Emits the strips to the boundary points of a boundary edge, and the half E-face between them.
 void LocalPolygons::emitBoundaryEdge(const Corner& c, const VertexArray& here,
                                      const VertexArray& next, PolygonPieces& pieces) {
   const CurvePoints start = vertices_.curveAcrossR(c);
@@ -306,7 +309,7 @@ void LocalPolygons::emitBoundaryEdge(const Corner& c, const VertexArray& here,
   pieces.addPolygon(row_);
 }
 
-/// The V-face of a fan, or the half V-face, given the fan's first corner.
+/// Emits the V-face or half V-face of a fan, given its first corner.
 void LocalPolygons::emitVFace(const Corner& c, PolygonPieces& pieces) {
   const SubdivisionLevel& base = vertices_.images().base();
   const Index number = vertices_.images().vFaceNumber(c.slot());

@@ -8,16 +8,17 @@
 
 namespace vox {
 
-/// Refines submeshes of a base mesh into polygons, each level-1 vertex to a depth of its own, and
-/// never builds the refined mesh.
+/// Refines submeshes of a base mesh into polygons, each level-1 vertex to a depth of its own. The
+/// refined mesh is never built.
 ///
 /// Every level-1 vertex (one per corner of the base) becomes an array of vertices (vertex_array.h).
-/// The faces within it, the strips between the facing rows of neighbours, and one polygon per
-/// level-1 face of the corners of the arrays around it make one mesh without gaps for any depths:
-/// at depth k everywhere it is level k + 1. A corner owns its array, the strip to the next corner
-/// and the strip across its edge at its vertex; a face owns its F-face, the first corner of an edge
-/// its E-face, the first corner of a fan its V-face. At an extended boundary the row of boundary
-/// points beside a vertex is as long as the vertex's own.
+/// There are three kinds of polygons: the faces within each array; strips between the facing rows
+/// of neighbouring arrays; and for each level-1 face one polygon between the corners of the arrays
+/// around it. For any depths they form one mesh without gaps; with depth k everywhere it is level
+/// k + 1. A corner owns its array, the strip to the next corner, and the strip across its edge at
+/// its vertex. A face owns its F-face, the first corner of an edge the E-face, the first corner of
+/// a fan the V-face. At an extended boundary, the row of boundary points beside a vertex is as long
+/// as the row of the vertex.
 ///
 /// One object per thread. Source: DESIGN section 10.
 class LocalPolygons {
@@ -26,17 +27,18 @@ class LocalPolygons {
   ///   vertex, and no interior vertex of two faces
   explicit LocalPolygons(const SubdivisionLevel& base) : vertices_(base) {}
 
-  /// Writes the depths of the corners of these faces.
-  /// @param depths  one per corner of the base mesh
-  /// @throws LimitError  coordinates out of all range
+  /// Computes the depths of the corners of some faces.
+  /// @param depths  one per corner of the base mesh; only those of these corners are written
+  /// @throws LimitError  coordinates are out of range
   void findDepths(std::span<const Index> faces, const DepthRule& rule,
                   std::span<VertexDepth> depths);
 
-  /// Gives the sink the polygons that these faces own. Normals, where the sink wants them, cost a
-  /// look at the faces beyond: all around a vertex then is known, on either side of an edge.
-  /// @param depths  one per corner of the base mesh; of irregular vertices u = v
-  /// @param rule    where given, parts of the arrays of irregular vertices that need fewer vertices
-  ///   by it, along u or v or both, get them: all but their outermost rows
+  /// Gives the sink the polygons that some faces own. With normals it costs more, because the faces
+  /// beyond the submesh are then subdivided, too.
+  /// @param faces   the span must stay valid until the next call
+  /// @param depths  one per corner of the base mesh; u = v for irregular vertices
+  /// @param rule    if not null, a block of the array of an irregular vertex gets only the vertices
+  ///   that it needs by this rule, except for its outermost rows
   void emit(std::span<const Index> faces, std::span<const VertexDepth> depths,
             const DepthRule* rule, PolygonSink& sink);
 
@@ -63,8 +65,8 @@ class LocalPolygons {
   std::span<const VertexDepth> depths_;
   const DepthRule* rule_ = nullptr;
   VertexArray here_, next_, other_, otherFar_;
-  VertexArray inner_;                // of a block
-  std::vector<VertexDepth> within_;  // of the blocks of an array
+  VertexArray inner_;                // the vertices within a block
+  std::vector<VertexDepth> within_;  // depths within the blocks of an array
   PointRow polygon_;
   PointRow row_;
 };

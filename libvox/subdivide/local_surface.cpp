@@ -1,4 +1,4 @@
-// From the faces of a submesh to regular patches.
+// Regular patches and single vertices of the faces of a submesh.
 
 #include "libvox/subdivide/local_surface.h"
 
@@ -65,7 +65,7 @@ void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
   if (joined_) extraordinary_.run(around_, 2, sink);
 }
 
-/// The surroundings of a level-1 vertex in a quad whose V-face is a quad or missing.
+/// The patch of a level-1 vertex in a quad whose V-face is a quad or missing.
 Patch LocalSurface::patchAt(const Corner& at) const {
   const LocalImages::VFace& vFace = images_.vFace(at.slot());
   const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
@@ -89,7 +89,7 @@ bool LocalSurface::isRegular(const Corner& at) const {
   return vFace.size == 4 || !(vFace.closed || images_.extends());
 }
 
-/// The largest of the faces around a level-1 vertex.
+/// Largest diameter of the faces around a level-1 vertex.
 double LocalSurface::diameterAround(const Corner& at, double faceDiameter) const {
   return std::max({faceDiameter, images_.edgeFace(at.slot()).diameter,
                    images_.edgeFace(at.previous()).diameter, images_.vFace(at.slot()).diameter});
@@ -101,7 +101,7 @@ bool LocalSurface::isInside(const Corner& at) const {
          images_.edgeFace(at.previous()).interior;
 }
 
-/// Emits a regular vertex of `level`; those that are fine enough are collected.
+/// Emits a regular vertex of `level`; if it is fine enough, appends it to `finished` instead.
 void LocalSurface::emitSmall(const Patch& patch, int level, std::vector<Vec3d>& finished,
                              SurfaceSink& sink) {
   if (patchDepth(patch) == 0)
@@ -110,7 +110,7 @@ void LocalSurface::emitSmall(const Patch& patch, int level, std::vector<Vec3d>& 
     emitRegular(patch, level, sink);
 }
 
-/// The last step at a level-1 vertex inside the surface.
+/// Collects the four children of a level-1 vertex inside the surface; they are fine enough.
 void LocalSurface::finishChildren(const Corner& at) {
   const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
   const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
@@ -122,8 +122,8 @@ void LocalSurface::finishChildren(const Corner& at) {
   finishedChildren_.push_back(vFaceImages_[vFace.begin + images_.placeInVFace(at.slot())]);
 }
 
-/// One step at a level-1 vertex: emits its children that are regular or fine enough and hands the
-/// others to the face and the V-face that they lie in.
+/// One step at a level-1 vertex. Emits the children that are regular or fine enough; the others
+/// become active corners of the face or the V-face in which they lie.
 void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
   const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
   const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
@@ -170,7 +170,7 @@ void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
         2, sink);
 }
 
-/// The V-face of a corner, once its level 2 has been computed.
+/// The V-face of a corner. Computes its points of level 2 if they are not known yet.
 const LocalImages::VFace& LocalSurface::subdividedVFace(const Corner& at) {
   const LocalImages::VFace& vFace = images_.vFace(at.slot());
   const Index number = images_.vFaceNumber(at.slot());
@@ -183,7 +183,7 @@ const LocalImages::VFace& LocalSurface::subdividedVFace(const Corner& at) {
   return vFace;
 }
 
-/// Level 2 in the V-face.
+/// Sets the images in the V-face.
 void LocalSurface::splitInVFace(const Corner& at, VertexSplit& split) {
   split.hasVFace = images_.vFace(at.slot()).closed || images_.extends();
   if (!split.hasVFace) return;
@@ -203,7 +203,7 @@ void LocalSurface::splitInVFace(const Corner& at, VertexSplit& split) {
   if (vFace.size == 4) split.vFaceOpposite = vFaceImages_[vFace.begin + (place ^ 2U)];
 }
 
-/// The corner becomes an active vertex of its face, seen at level 2.
+/// Makes the corner an active corner of its face at level 2.
 void LocalSurface::joinFace(const Corner& at, const VertexSplit& split) {
   if (!joined_) {
     around_.reset(at.size);
@@ -223,7 +223,8 @@ void LocalSurface::joinFace(const Corner& at, const VertexSplit& split) {
   around_.active[i] = true;
 }
 
-/// The same for its V-face, in which the next corner lies to the left.
+/// Makes the corner an active corner of its V-face at level 2. In the V-face the next corner lies
+/// across L.
 void LocalSurface::joinVFace(const Corner& at, const VertexSplit& split) {
   const LocalImages::VFace& vFace = images_.vFace(at.slot());
   const Index place = images_.placeInVFace(at.slot());
@@ -259,7 +260,7 @@ void LocalSurface::emitVFaces(SurfaceSink& sink) {
   }
 }
 
-/// The points of the boundary curve that the boundary edges of a face make.
+/// Emits the boundary points of the boundary edges of a face.
 void LocalSurface::emitBoundary(Index f, Index firstSlot, SurfaceSink& sink) {
   const PolygonMesh& mesh = images_.base().mesh;
   const Index size = mesh.faceSize(f);

@@ -10,13 +10,15 @@
 
 namespace vox {
 
-/// Subdivides submeshes of a base mesh, each vertex only until it is fine enough (stop.h), and
-/// never builds a refined mesh: regular vertices leave as patches, what lies around an
-/// extraordinary face or vertex shrinks from level to level (ExtraordinaryFace).
+/// Subdivides submeshes of a base mesh, each vertex only until it is fine enough (stop.h). A
+/// refined mesh is never built: a regular vertex goes to the sink as a patch, and the irregular
+/// vertices around an extraordinary face or vertex are subdivided level by level
+/// (ExtraordinaryFace).
 ///
-/// A face owns its corners, a corner the level-1 vertex it makes and all that descends from it, and
-/// at an extended boundary the boundary points of its edge. So over submeshes that cover the mesh
-/// once, every vertex is emitted exactly once, and its bits do not depend on how the mesh is cut.
+/// A face owns its corners. A corner owns the level-1 vertex that it makes and all descendants of
+/// this vertex; at an extended boundary also the boundary points of its edge. So if submeshes cover
+/// the mesh once, every vertex is emitted exactly once, and its bits do not depend on the
+/// partition.
 ///
 /// One object per thread. Source: paper section 4; DESIGN section 7.
 class LocalSurface {
@@ -25,9 +27,9 @@ class LocalSurface {
   /// vertex
   explicit LocalSurface(const SubdivisionLevel& base) : images_(base) {}
 
-  /// Gives the sink all vertices that the corners of these faces own, each at its own level. The
-  /// span must stay valid until the next call.
-  /// @throws LimitError  coordinates out of all range
+  /// Gives the sink all vertices that the corners of some faces own, each at its own level.
+  /// @param faces  of the base; the span must stay valid until the next call
+  /// @throws LimitError  coordinates are out of range
   void emit(std::span<const Index> faces, SurfaceSink& sink);
 
  private:
@@ -61,23 +63,23 @@ class LocalSurface {
   LocalImages images_;
   FaceImages faceImages_;
   std::vector<Vec3d> finished_;          // level-1 vertices that are fine enough
-  std::vector<Vec3d> finishedChildren_;  // level-2 vertices that are
-  std::vector<Vec3d> facePoints_;        // level 2 of one face
-  double faceDiameter_ = 0;              // of these
+  std::vector<Vec3d> finishedChildren_;  // level-2 vertices that are fine enough
+  std::vector<Vec3d> facePoints_;        // level 2 in one face
+  double faceDiameter_ = 0;              // of facePoints_
   struct Irregular {
     Corner at;
     bool last;  // its children are fine enough
   };
   std::vector<Irregular> irregular_;    // corners of one face
-  ExtraordinaryFace around_;            // that face, if it is no quad
-  bool joined_ = false;                 // it has active corners
-  std::vector<Vec3d> vFaceImages_;      // level 2 of the V-faces, where needed
-  std::vector<double> vFaceDiameters_;  // of these, per V-face
+  ExtraordinaryFace around_;            // the face at level 2, if it is not a quad
+  bool joined_ = false;                 // whether around_ has active corners
+  std::vector<Vec3d> vFaceImages_;      // level 2 in the V-faces, if vFaceKnown_
+  std::vector<double> vFaceDiameters_;  // of the images, per V-face
   std::vector<std::uint8_t> vFaceKnown_;
   std::vector<Vec3d> vFaceNear_, vFaceFar_,
-      vFaceCorner_;  // as ExtraordinaryFace, per point of a V-face
+      vFaceCorner_;  // as in ExtraordinaryFace, per point of a V-face
   std::vector<std::uint8_t> vFaceActive_;
-  ExtraordinaryFace vFace_;  // one of them
+  ExtraordinaryFace vFace_;  // a V-face at level 2
   ExtraordinarySubdivision extraordinary_;
 };
 

@@ -1,4 +1,4 @@
-// What lies around the level-1 vertices of a submesh.
+// The level-1 vertices of a submesh and their surroundings.
 
 #include "libvox/subdivide/local_vertices.h"
 
@@ -15,7 +15,7 @@ void LocalVertices::setWithNeighbours(std::span<const Index> faces) {
   const SubdivisionLevel& base = images_.base();
   isLoaded_.resize(base.mesh.faceCount());
   isVisited_.resize(base.mesh.pointCount());
-  std::swap(loaded_, loadedBefore_);  // images_ looks at the list before until it has another
+  std::swap(loaded_, loadedBefore_);  // images_ still refers to the old list
   loaded_.clear();
   for (const Index f : faces) addNeighbour(f);
   for (const Index f : faces)
@@ -37,7 +37,7 @@ void LocalVertices::addNeighbour(Index face) {
   loaded_.push_back(face);
 }
 
-/// All faces of the fans that begin, as in LocalImages, in one of these.
+/// Adds all faces of the fans whose first corner (as in LocalImages) is in one of these faces.
 void LocalVertices::addFansFrom(std::span<const Index> faces) {
   constexpr std::uint8_t kOwn = 2;
   const SubdivisionLevel& base = images_.base();
@@ -72,7 +72,8 @@ void LocalVertices::load(std::span<const Index> faces) {
   prepareVFaces();
 }
 
-/// Level 2 of the V-faces, and where they are no quads, of what the submesh knows around them.
+/// Computes level 2 in the V-faces; for those that are not quads also the points around them, as
+/// far as the submesh has them.
 void LocalVertices::prepareVFaces() {
   const auto& vFaces = images_.vFaces();
   vFaceSecond_.resize(images_.vFacePoints().size());
@@ -95,7 +96,7 @@ void LocalVertices::prepareVFaces() {
     if (!faces[s].inner.empty()) vFaceLevels_[s].start(std::move(faces[s]));
 }
 
-/// What the faces of the submesh put around the V-faces that are no quads.
+/// Sets the points of level 2 around the V-faces that are not quads, from the faces of the submesh.
 void LocalVertices::surroundVFaces(std::vector<ExtraordinaryFace>& faces) const {
   Index slot = 0;
   for (const Index f : images_.faces()) {
@@ -136,7 +137,7 @@ Patch LocalVertices::patchAt(const Corner& c) const {
           static_cast<std::uint8_t>(quadrants | 8U)};
 }
 
-/// What the V-face says of a vertex.
+/// Sets the part of a vertex that depends on its V-face.
 void LocalVertices::splitVFace(const LocalImages::VFace& vFace, Index number, Index place,
                                LevelOneVertex& vertex) {
   VertexSplit& split = vertex.split;
@@ -167,7 +168,7 @@ void LocalVertices::splitVFace(const LocalImages::VFace& vFace, Index number, In
   }
 }
 
-/// The levels of a face that is no quad.
+/// The levels of a face that is not a quad.
 ExtraordinaryLevels& LocalVertices::levelsOf(const Corner& at) {
   if (!keepsLevels_) {
     if (openFace_ != at.first) openFace(at, faceLevels_.front());

@@ -10,27 +10,29 @@
 
 namespace vox {
 
-/// The level-1 vertices of a submesh with what lies around them, and of their neighbours beyond it
-/// what the faces between them depend on. The base mesh must have no interior vertex of two faces.
-/// One object per thread; work arrays are kept. Whatever the submesh, points have the same bits.
+/// The level-1 vertices of a submesh and the faces around them; also those vertices beyond the
+/// submesh that its strips and polygons use. Points have the same bits in every submesh. One object
+/// per thread; work arrays are kept.
 class LocalVertices {
  public:
+  /// @param base  level 0, without interior vertices of two faces
   explicit LocalVertices(const SubdivisionLevel& base) : images_(base) {}
 
-  /// Replaces the submesh. Cost: that of LocalImages.
+  /// Replaces the submesh. Cost as LocalImages::set.
+  /// @param faces  of the base; the span must stay valid until the next call
   void set(std::span<const Index> faces);
-  /// The same with faces beyond it after those of the submesh, so that corners can be asked for
-  /// across its edges, and all around vertices whose fan begins in it. What a vertex refers to is
-  /// valid until the next submesh.
+  /// Replaces the submesh and loads further faces: those across its edges, and all faces of the
+  /// fans that begin in it. at() then accepts all corners of loaded faces, and its vertices stay
+  /// valid until the next call.
   void setWithNeighbours(std::span<const Index> faces);
 
   const LocalImages& images() const { return images_; }
 
-  /// A corner of a face of the submesh, by slots.
+  /// A corner of a loaded face.
   struct Corner {
-    Index first;   ///< slot of the face's first corner
-    Index place;   ///< in the face
-    Index size;    ///< of the face
+    Index first;   ///< slot of the first corner of the face (LocalImages)
+    Index place;   ///< of the corner in the face
+    Index size;    ///< number of corners of the face
     Index number;  ///< of the corner in the base mesh
     Index slot() const { return first + place; }
     Corner next() const {
@@ -43,28 +45,37 @@ class LocalVertices {
     }
   };
 
-  /// A corner of a loaded face.
+  /// The corner of a loaded face with a number in the base mesh.
   Corner cornerOf(Index number) const {
     const SubdivisionLevel& base = images_.base();
     const Index f = base.adjacency.cornerFace[number];
     return {images_.firstSlot(f), number - base.mesh.faceOffsets[f], base.mesh.faceSize(f), number};
   }
 
-  /// A vertex of the submesh. What it refers to is valid until a corner of another face is asked
-  /// for.
+  /// The level-1 vertex of a corner. Its pointers are valid until at() is called for a corner of
+  /// another face (or as setWithNeighbours says).
   LevelOneVertex at(const Corner& corner);
-  /// The neighbour across R, near which it is known as far as R and the V-face go: its L and
-  /// V-face.
+
+  // Level-1 vertices of faces that need not be loaded. Only some of the faces around them are
+  // known:
+
+  /// The neighbour across R of the vertex of a corner, at the same base vertex. Known are its
+  /// V-face and its L, which is the R of the corner.
   LevelOneVertex acrossR(const Corner& corner);
-  /// The neighbour across R of the vertex at the next corner, as far as R goes.
+  /// The neighbour across R of the vertex of the next corner. Known are its V-face and its R, which
+  /// is the R of `corner`.
   LevelOneVertex acrossRFromNext(const Corner& corner);
-  /// A vertex of a V-face, as far as the V-face goes.
+  /// The vertex at a place of a V-face. Known is only its V-face.
+  /// @param vFace  number of the V-face (LocalImages)
+  /// @param quadF  whether its F-face is a quad
   LevelOneVertex inVFace(Index vFace, Index place, bool quadF);
 
-  /// What stop rules look at.
+  /// The faces around the vertex of a corner, for stop rules.
   VertexFaces facesAt(const Corner& corner);
+  /// The boundary points beside the vertex of a corner; none unless the surface is extended.
   BoundaryCurves curvesAt(const Corner& corner) const;
-  /// Boundary points across R and L of a corner, with their neighbours along the boundary.
+  /// The boundary points across R and L of a corner, with their neighbours along the boundary.
+  /// Precondition: the surface is extended, and the edge in question is boundary.
   CurvePoints curveAcrossR(const Corner& corner) const;
   CurvePoints curveAcrossL(const Corner& corner) const;
 
@@ -96,15 +107,16 @@ class LocalVertices {
   std::vector<ExtraordinaryLevels> vFaceLevels_;
   std::vector<FaceShape> vFaceShapes_;
   std::vector<std::uint8_t> vFaceShaped_;
-  // Of faces that are no quads: of one at a time, or with neighbours of all that were asked for.
+  // Levels of faces that are not quads: of one face at a time; with neighbours, of all that at()
+  // has used.
   std::deque<ExtraordinaryLevels> faceLevels_ = std::deque<ExtraordinaryLevels>(1);
-  Index openFace_ = kNone;       // first slot of the face of the first of these
-  bool keepsLevels_ = false;     // of all
-  std::vector<Index> levelsAt_;  // by first slot
+  Index openFace_ = kNone;       // first slot of the face in faceLevels_[0]
+  bool keepsLevels_ = false;     // true: of all faces
+  std::vector<Index> levelsAt_;  // by first slot: index in faceLevels_, or kNone
   std::size_t opened_ = 0;
   FaceShape faceShape_;
   Index shapedFace_ = kNone;
-  // With neighbours:
+  // For setWithNeighbours:
   std::vector<Index> loaded_, loadedBefore_;
   std::vector<std::uint8_t> isLoaded_;   // per face of the base
   std::vector<std::uint8_t> isVisited_;  // per vertex

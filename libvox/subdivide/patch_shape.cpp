@@ -1,4 +1,4 @@
-// What flatness and angles of a patch are measured on.
+// Normals for the measures of patches.
 
 #include "libvox/subdivide/patch_shape.h"
 

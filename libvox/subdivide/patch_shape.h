@@ -4,7 +4,7 @@
 
 namespace vox {
 
-/// Unit normal between two directions; 0 if they have none.
+/// Unit vector along alongU x alongV; 0 if the two are parallel or one of them is 0.
 Vec3d normalOf(const Vec3d& alongU, const Vec3d& alongV);
 
 }  // namespace vox

@@ -1,4 +1,4 @@
-// Whether the vertices around a strip of a patch do for those within.
+// Whether small triangles can fill a strip of a patch, from the vertices around it alone.
 
 #include "libvox/subdivide/patch_strips.h"
 
@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
-/// What N descendants of three points lie on: number j at (j + 1/2) / N.
+/// The quadratic on which n descendants of three control points lie: number j at (j + 1/2) / n.
 Quadratic quadraticThrough(const CurvePoints& p, std::int64_t n) {
   const double square = static_cast<double>(n) * static_cast<double>(n);
   const Vec3d offset = (p[0] - 2.0 * p[1] + p[2]) / (8 * square);
   return {(p[0] + p[1]) / 2.0 - offset, p[1] - offset, (p[1] + p[2]) / 2.0 - offset};
 }
 
-/// A quadratic from a to b instead of from 0 to 1, by its polar form.
+/// The part of a quadratic from a to b, by its polar form.
 Quadratic partOf(const Quadratic& q, double a, double b) {
   const auto at = [&](double s, double t) {
     return Vec3d((1 - s) * (1 - t) * q[0] + (s * (1 - t) + t * (1 - s)) * q[1] + s * t * q[2]);
@@ -30,7 +30,7 @@ Quadratic partOf(const Quadratic& q, double a, double b) {
   return {at(a, a), at(a, b), at(b, b)};
 }
 
-/// A box of vectors, 0 among them.
+/// A box that holds some vectors and 0.
 struct Box {
   Vec3d low = Vec3d::Zero();
   Vec3d high = Vec3d::Zero();
@@ -41,8 +41,10 @@ struct Box {
   Vec3d size() const { return high - low; }
 };
 
-/// Where on a curve one is closest to a point at d from its beginning, nearly: the curve has the
-/// tangent a there and the second derivative h.
+/// Parameter of a curve at which it is closest, about, to a point.
+/// @param d  vector from the start of the curve to the point
+/// @param a  tangent of the curve at its start
+/// @param h  second derivative of the curve
 double placeAlong(const Vec3d& d, const Vec3d& a, const Vec3d& h) {
   const double aa = a.squaredNorm();
   if (!(aa > 0)) return 0;
@@ -58,11 +60,11 @@ double placeAlong(const Vec3d& d, const Vec3d& a, const Vec3d& h) {
   return place;
 }
 
-/// A number for each of the four sides of a walk.
+/// One number for each of the four sides of a walk.
 using Lanes = Eigen::Array4d;
 
-/// Polynomials on 0 .. 1, one for each side: Bernstein coefficients times binomial coefficients, so
-/// that products of such lists are those of the polynomials.
+/// Polynomials on 0 .. 1, one for each side, as Bernstein coefficients times binomial coefficients:
+/// in this form, products of polynomials are convolutions of the lists.
 template <std::size_t kSize>
 using Polynomials = std::array<Lanes, kSize>;
 
@@ -76,7 +78,7 @@ Polynomials<kSizeA + kSizeB - 1> operator*(const Polynomials<kSizeA>& a,
   return product;
 }
 
-/// Coordinates of the sides of a walk.
+/// The sides of a walk: quadratics for each of the three coordinates.
 using Sides = std::array<Polynomials<3>, 3>;
 
 Sides sidesOf(const std::array<Quadratic, 4>& curves, const Vec3d& origin) {
@@ -98,7 +100,8 @@ Sides sidesOf(const std::array<Quadratic, 4>& curves, const Vec3d& origin) {
 constexpr std::size_t kCubic = 4;
 using Cubic = std::array<Vec3d, kCubic>;  // Bernstein coefficients
 
-/// The curve with these places closest to the sides, by least squares at some of their points.
+/// The cubic closest to the sides, by least squares at some points of each side.
+/// @param places  the parameters of the cubic along each side
 Cubic cubicAlong(const Sides& sides, const Polynomials<3>& places) {
   std::array<std::array<Lanes, kCubic>, kCubic> products;
   std::array<std::array<Lanes, 3>, kCubic> moments;
@@ -136,7 +139,8 @@ Cubic cubicAlong(const Sides& sides, const Polynomials<3>& places) {
   return {solution.row(0), solution.row(1), solution.row(2), solution.row(3)};
 }
 
-/// The box of what sides with places s differ by from a cubic: of degree 6.
+/// A box of the differences between the sides and a cubic, which are polynomials of degree 6.
+/// @param s  the parameters of the cubic along each side
 Box differencesFrom(const Cubic& cubic, const Sides& sides, const Polynomials<3>& s) {
   const Polynomials<3> one = {Lanes::Constant(1), Lanes::Constant(2), Lanes::Constant(1)};
   const Polynomials<3> r = {one[0] - s[0], one[1] - s[1], one[2] - s[2]};
@@ -162,7 +166,7 @@ Box differencesFrom(const Cubic& cubic, const Sides& sides, const Polynomials<3>
   return box;
 }
 
-/// The point of some curves' coefficients farthest from another.
+/// The Bernstein coefficient of some curves that is farthest from a point.
 Vec3d farthestFrom(const Vec3d& from, const std::array<Quadratic, 4>& curves) {
   Vec3d farthest = from;
   double most = 0;
@@ -175,7 +179,7 @@ Vec3d farthestFrom(const Vec3d& from, const std::array<Quadratic, 4>& curves) {
   return farthest;
 }
 
-/// Whether a strip between two rows has more area than fits beside a curve.
+/// Whether the strip between two rows has too much area to lie along a curve.
 bool isWide(const Quadratic& first, const Quadratic& second) {
   const auto middle = [](const Quadratic& q) { return Vec3d((q[0] + 2.0 * q[1] + q[2]) / 4.0); };
   const Vec3d a = middle(first);
@@ -217,15 +221,15 @@ double PatchStrips::placeAcross(std::int64_t i) const {
   return (static_cast<double>(i) + 0.5) / static_cast<double>(n_);
 }
 
-/// With the first row, continued, as the curve, and x from 0 to 1 along it. Where f goes from 0 to
-/// 1 across the strip, a point of it is
+/// The curve is the first row, continued beyond its ends; x runs from 0 to 1 along the row, and f
+/// from 0 to 1 across the strip. A point of the strip is
 ///   S(f, x) = S(0, x) + f D(x) - f (1 - f) / 2 w^2 G(x),
-/// D from one row to the other, w the width of the strip, G the second derivative across. On the
-/// curve, the place s = x + f sigma(x) is
+/// where D leads from the first row to the second, w is the width of the strip, and G the second
+/// derivative across. The point of the curve with parameter s = x + f sigma(x) is
 ///   S(0, s) = S(0, x) + f sigma(x) S'(x) + f^2 sigma(x)^2 / 2 H,
-/// S' linear from A to B and H = B - A. The difference is
-///   f (D - sigma S' - sigma^2 / 2 H) + f (1 - f) / 2 (sigma^2 H - w^2 G):
-/// with a sigma linear in x, quadratic in x.
+/// where S' is linear from A to B, and H = B - A. The difference of the two is
+///   f (D - sigma S' - sigma^2 / 2 H) + f (1 - f) / 2 (sigma^2 H - w^2 G).
+/// With sigma linear in x, it is quadratic in x.
 double PatchStrips::longestSideAlongRow(const Strip& strip) const {
   const auto& [first, second, from, to, steps] = strip;
   const Vec3d a = 2.0 * (first[1] - first[0]);
@@ -235,7 +239,7 @@ double PatchStrips::longestSideAlongRow(const Strip& strip) const {
   const double start = placeAlong(d[0], a, h);
   const double end = placeAlong(d[2], b, h);
   const double most = std::max(std::abs(start), std::abs(end));
-  constexpr double kFarBeyond = 1e3;  // rows' lengths: no use
+  constexpr double kFarBeyond = 1e3;  // lengths of the row: the bound would be useless
   if (!(most < kFarBeyond)) return kNoBound;
   const double width = to - from;
   const std::array<double, 3> squares = {start * start, start * end, end * end};
@@ -251,8 +255,8 @@ double PatchStrips::longestSideAlongRow(const Strip& strip) const {
   return (step * speed + across.size() + bulge.size() / 8.0).maxCoeff();
 }
 
-/// With a cubic as the curve, fitted to the walk, and s from 0 to 1 along a straight line: for
-/// strips whose rows turn back on themselves.
+/// The curve is a cubic, fitted to the walk; its parameter s runs from 0 to 1 along a straight
+/// line. For strips whose rows turn back on themselves.
 double PatchStrips::longestSideAlongCubic(const Strip& strip) const {
   const auto& [first, second, from, to, steps] = strip;
   if (isWide(first, second)) return kNoBound;

@@ -7,35 +7,36 @@
 
 namespace vox {
 
-/// A quadratic polynomial on 0 .. 1 as Bernstein coefficients: it stays in their convex hull.
+/// A quadratic polynomial on 0 .. 1, as Bernstein coefficients. Its values lie in their convex
+/// hull.
 using Quadratic = std::array<Vec3d, 3>;
 
-/// What lies between two rows of a patch's N x N vertices, seen as filled from around.
+/// The strips between rows of the N x N vertices of a patch. Decides whether small triangles can
+/// fill a strip, using only the vertices on the walk around it: along one row, a column, the other
+/// row and the other column.
 ///
-/// The walk around such a strip goes along one row, a column, the other row and back. Say that each
-/// of its vertices has a place s on some curve and differs from the curve there by no more than a
-/// small box E holds, and that s changes by at most h from one to the next. Then the walk can be
-/// filled with triangles whose corners differ by at most h in s: cut off the corner where s is
-/// largest, again and again. None of their sides is longer than what the curve covers in h, plus
-/// the size of E.
+/// Suppose that each vertex of the walk has a parameter s on some curve, that its difference from
+/// the point of the curve at s lies in a small box E, and that s changes by at most h from one
+/// vertex to the next. Then triangles whose corners differ by at most h in s can fill the walk: cut
+/// off the corner with the largest s, again and again. No side of a triangle is longer than the
+/// largest piece of the curve with length h in s, plus the size of E.
 class PatchStrips {
  public:
-  /// @param patch   complete, of finite points; must outlive this
+  /// @param patch   with all four faces and finite points; must outlive this object
   /// @param levels  N = 2^levels
   PatchStrips(const Patch& patch, int levels);
 
-  /// Whether triangles no larger than kVertexConversionSpan fill the walk around the strip between
-  /// two rows. Never true in error; two curves are tried.
+  /// Whether triangles of size at most kVertexConversionSpan can fill the walk around the strip
+  /// between rows i < j. Tries two curves. The answer may be false by mistake, but never true.
   bool fillable(std::int64_t i, std::int64_t j) const;
 
  private:
-  /// Between two rows, which lie at places from 0 to 1 across the patch, so many steps apart.
   struct Strip {
-    Quadratic first, second;
-    double from, to;
-    double steps;
+    Quadratic first, second;  ///< the two rows
+    double from, to;          ///< their parameters across the patch, 0 to 1
+    double steps;             ///< number of steps between them
   };
-  /// Upper bounds for the triangles (L-inf, in voxels), from a curve each.
+  /// Upper bounds of the sides of the triangles (L-inf, in voxels), each with another curve.
   double longestSideAlongRow(const Strip& strip) const;
   double longestSideAlongCubic(const Strip& strip) const;
   Quadratic row(std::int64_t i) const;
@@ -44,7 +45,7 @@ class PatchStrips {
   const Patch& patch_;
   std::int64_t n_;
   Quadratic bendAcross_;              ///< second derivative from row to row
-  std::array<Quadratic, 2> columns_;  ///< the outermost
+  std::array<Quadratic, 2> columns_;  ///< the first and the last column
 };
 
 }  // namespace vox

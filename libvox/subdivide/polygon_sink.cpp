@@ -1,4 +1,4 @@
-// Faces of arrays, and between rows.
+// Faces within arrays and between rows, in pieces.
 
 #include "libvox/subdivide/polygon_sink.h"
 

@@ -1,4 +1,4 @@
-// Differences and boxes of a dozen points, three coordinates at a time.
+// Differences and boxes of a dozen points, all three coordinates at once.
 
 // Highway compiles this file once per instruction set, between HWY_BEFORE_ and HWY_AFTER_NAMESPACE.
 #undef HWY_TARGET_INCLUDE
@@ -86,8 +86,8 @@ inline Coords largestOf(const Coords& a, const Coords& b, const Coords& c, const
   return max(max(a, b), max(c, d));
 }
 
-/// Steps from index 0 to 1 and from 1 to 2 along an axis, at each index along the other one, where
-/// one of the quadrants beside them exists.
+/// Largest steps between neighbouring control points along u and along v. A step counts if a
+/// quadrant beside it exists.
 void steps(const Patch& patch, Vec3d& u, Vec3d& v) {
   constexpr unsigned kBesideU[2][3] = {{1, 3, 2}, {4, 12, 8}};
   constexpr unsigned kBesideV[2][3] = {{1, 5, 4}, {2, 10, 8}};
@@ -111,7 +111,7 @@ ChildSizes sizes(const VertexSplit& split) {
   const Coords l0(split.l[0]), l1(split.l[1]), l2(split.l[2]), l3(split.l[3]);
   const Coords vFace0(split.vFace0), vFaceRight(split.vFaceRight), vFaceLeft(split.vFaceLeft);
 
-  // Around the vertex, which both patches see.
+  // Steps around the vertex, which the patches of both children contain.
   const Coords u = max(step(r0, vFace0), step(f0, l0));
   const Coords v = max(step(l0, vFace0), step(f0, r0));
   const Coords uR =

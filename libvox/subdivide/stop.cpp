@@ -1,4 +1,4 @@
-// How deep a vertex has to be subdivided, known before it is.
+// The depth to which a vertex must be subdivided, computed before it is subdivided.
 
 #include "libvox/subdivide/stop.h"
 

@@ -7,17 +7,17 @@
 
 namespace vox {
 
-// When a vertex is fine enough for vertex conversion: every face around it, at its own level, has
-// an L-inf diameter of at most kVertexConversionSpan. The diameter, not only edges and one
-// diagonal: where the other corners of a face go on to deeper levels, their descendants stay in its
-// convex hull, so whatever faces stitch the levels together fit into a voxel too. All lengths in
-// voxels. Source: paper section 5; DESIGN sections 8 and 9.
+// A vertex is fine enough for vertex conversion if every face around it, at its own level, has an
+// L-inf diameter of at most kVertexConversionSpan. The whole diameter counts, not only edges and
+// one diagonal: other corners of a face may be subdivided further, and their descendants stay in
+// the convex hull of the faces that both share; so the faces between the levels fit into a voxel,
+// too. All lengths in voxels. Source: paper section 5; DESIGN sections 8 and 9.
 
-/// L-inf size of a face that vertex conversion accepts. The guarantee holds up to 1; the rest is
-/// for rounding.
+/// Largest L-inf diameter of a face that is fine enough for vertex conversion. The guarantee holds
+/// up to 1; the difference is for rounding errors.
 inline constexpr double kVertexConversionSpan = 0.999;
 
-/// L-inf diameter of some points: the longest side of their box. Not of an empty set.
+/// L-inf diameter of at least one point: the longest side of their box.
 inline double diameter(std::span<const Vec3d> points) {
   Vec3d low = points[0];
   Vec3d high = points[0];
@@ -28,29 +28,30 @@ inline double diameter(std::span<const Vec3d> points) {
   return (high - low).maxCoeff();
 }
 
-/// The same of a quad.
+/// L-inf diameter of a quad.
 inline double diameter(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
   const Vec3d low = a.cwiseMin(b).cwiseMin(c.cwiseMin(d));
   const Vec3d high = a.cwiseMax(b).cwiseMax(c.cwiseMax(d));
   return (high - low).maxCoeff();
 }
 
-/// The C(n) of DESIGN section 8 for a face of n sides: faces k levels down measure at most 2^-k
-/// times the largest diameter around a vertex, times the largest C around it.
+/// The bound C(n) of DESIGN section 8 for a face of n sides. With D the largest diameter and C the
+/// largest C(n) of the faces around a vertex, the faces k levels below measure at most 2^-k C D.
 double contraction(std::size_t sides);
 
-/// Whether all four children of an irregular vertex are fine enough, from the largest diameter and
-/// the largest contraction of the faces around it, none of them a strip face.
+/// Whether all four children of an irregular vertex are fine enough.
+/// @param largestDiameter, largestContraction  of the faces around it; none may be a strip face
 bool childrenFineEnough(double largestDiameter, double largestContraction);
 
-/// How many levels deep all descendants of a regular vertex are fine enough; 0 if it is so itself.
-/// Differences between neighbours are halved by every level and averaged, so that all faces k
-/// levels down measure at most 2^-k (max |du| + max |dv|), along each axis by itself.
+/// Number of levels below a regular vertex at which all its descendants are fine enough; 0 if it is
+/// fine enough itself. Each level halves and averages the differences between neighbours, so the
+/// faces k levels down measure at most 2^-k (max |du| + max |dv|), for each coordinate by itself.
 int patchDepth(const Patch& patch);
 
-/// Levels for a vertex of the boundary curve of an extended surface, from the largest diameter of
-/// the strip faces it belongs to. A safe bound for strips of any number of sides: they shrink by
-/// less than 3 / 2^k (DESIGN section 8), as halves of faces of at most twice their size.
+/// Number of levels below a vertex of the boundary curve of an extended surface at which it is fine
+/// enough. A bound for strip faces of any number of sides: a strip face is half of a face of at
+/// most twice its size, and C(n) < 3 (DESIGN section 8).
+/// @param stripDiameter  largest diameter of the strip faces at the vertex
 int curveDepth(double stripDiameter);
 
 }  // namespace vox

@@ -1,4 +1,4 @@
-// The boundary of an extended mesh: its points, and image vertices of the faces along it.
+// The boundary of an extended mesh: its points, and the image vertices of strip faces.
 
 #include "libvox/subdivide/strip.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kEdgesPerTask = 4096;
 
-/// A strip face, from the point before its boundary edge onwards.
+/// The corners of a strip face, from the start Mm of its boundary edge on.
 class Strip {
  public:
   Strip(const PolygonMesh& mesh, Index f, Index boundaryCorner)
@@ -20,10 +20,10 @@ class Strip {
         size_(mesh.faceSize(f)),
         first_(boundaryCorner - begin_) {}
 
-  Index inner() const { return size_ - 2; }             ///< m
-  Index last() const { return corner(0); }              ///< of Mm
-  Index first() const { return corner(1); }             ///< of M1
-  Index inner(Index i) const { return corner(i + 2); }  ///< of u_(i+1)
+  Index inner() const { return size_ - 2; }             ///< the number m
+  Index last() const { return corner(0); }              ///< the corner of Mm
+  Index first() const { return corner(1); }             ///< the corner of M1
+  Index inner(Index i) const { return corner(i + 2); }  ///< the corner of u_(i+1)
   const Vec3d& at(Index c) const { return mesh_.points[mesh_.faceVertices[c]]; }
 
  private:

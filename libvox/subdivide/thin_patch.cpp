@@ -1,4 +1,4 @@
-// Which rows of a patch do for all of it.
+// Thin patches: which rows of a patch are enough.
 
 #include "libvox/subdivide/thin_patch.h"
 
@@ -15,10 +15,11 @@
 namespace vox {
 namespace {
 
-/// What a vertex of a row costs, in vertices of a tile.
+/// Cost of a vertex of a row, in vertices of a patch.
 constexpr std::int64_t kCostOfRows = 4;
 
-/// Adds the rows that are needed between i and j. False if there would be more than `most`.
+/// Adds the rows that are needed between rows i and j. False if there would be more than `most`
+/// rows in all.
 bool addBetween(const PatchStrips& strips, std::int64_t i, std::int64_t j, std::int64_t most,
                 std::vector<std::int64_t>& rows) {
   if (static_cast<std::int64_t>(rows.size()) > most) return false;
@@ -29,7 +30,7 @@ bool addBetween(const PatchStrips& strips, std::int64_t i, std::int64_t j, std::
   return addBetween(strips, middle, j, most, rows);
 }
 
-/// The rows to keep, in ascending order. False if they are more than `most`.
+/// Sets the rows to keep, in ascending order. False if they are more than `most`.
 bool setRows(const Patch& patch, int levels, std::int64_t most, std::vector<std::int64_t>& rows) {
   const std::int64_t n = std::int64_t{1} << levels;
   rows.assign(1, 0);
@@ -38,23 +39,24 @@ bool setRows(const Patch& patch, int levels, std::int64_t most, std::vector<std:
   return true;
 }
 
-/// From end to end.
+/// Shortest distance between the ends of a row of control points.
 double shortestRow(const Patch& patch) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const auto& row : patch.points) shortest = std::min(shortest, (row[2] - row[0]).norm());
   return shortest;
 }
 
-/// A number for how far a patch goes from its first row to its last, negative if seen from the
-/// other end. Symmetric patches have another one for their columns, too.
+/// A number for the extent of a patch from its first row to its last. It changes its sign if the
+/// patch is turned by half a turn. Even for symmetric patches the number for the columns is
+/// another one.
 double extentAcross(const Patch& patch) {
-  const Vec3d direction(1, 0.7548776662466927, 0.5698402909980532);  // that no mesh knows of
+  const Vec3d direction(1, 0.7548776662466927, 0.5698402909980532);  // unlikely in any mesh
   const auto& p = patch.points;
   return direction.dot((p[2][1] - p[0][1]) + 0.3 * (p[2][2] - p[0][0]) + 0.1 * (p[2][0] - p[0][2]));
 }
 
-/// The patch so turned that its rows tell of the others: the longer the shortest of them, the
-/// better. It is to be the same from whichever of its four sides the patch is given.
+/// The patch turned so that few rows are enough: the rows run along the axis on which the shortest
+/// row is longer. The result is the same for all four turns of a patch.
 Patch turnedForRows(const Patch& patch) {
   const Patch turned = quarterTurn(patch);
   constexpr double kMuch = 1.001;
@@ -67,7 +69,8 @@ Patch turnedForRows(const Patch& patch) {
   return extentAcross(chosen) < 0 ? quarterTurn(quarterTurn(chosen)) : chosen;
 }
 
-/// Width of what the descendants cover, about: a quarter of each face, beside half of the row.
+/// Approximate width of the surface of the descendants: its area, a quarter of each face, divided
+/// by its length, half of the middle row.
 double meanWidth(const Patch& patch) {
   const auto& p = patch.points;
   double area = 0;
@@ -80,13 +83,13 @@ double meanWidth(const Patch& patch) {
 }  // namespace
 
 std::optional<ThinPatch> thinPatch(const Patch& patch, int levels) {
-  constexpr int kLeastLevels = 4;  // fewer vertices are not worth it
+  constexpr int kLeastLevels = 4;  // with fewer vertices it is not worth it
   constexpr int kMostLevels = 30;
   if (levels < kLeastLevels || levels > kMostLevels || patch.quadrants != kAllQuadrants)
     return std::nullopt;
   ThinPatch thin{turnedForRows(patch), levels, {}};
   std::int64_t limit = (std::int64_t{1} << (2 * levels)) / kCostOfRows;
-  constexpr double kWidestStrip = 0.6;  // voxels: the step along rows takes the rest
+  constexpr double kWidestStrip = 0.6;  // voxels; the rest is for the step along the rows
   const auto mostStrips = static_cast<double>((limit >> levels) - ThinPatch::kColumns - 1);
   if (!(meanWidth(thin.patch) <= kWidestStrip * mostStrips)) return std::nullopt;
 
@@ -95,7 +98,8 @@ std::optional<ThinPatch> thinPatch(const Patch& patch, int levels) {
   for (; thin.levels <= levels + 1; ++thin.levels) {
     const std::int64_t n = std::int64_t{1} << thin.levels;
     if (!setRows(thin.patch, thin.levels, limit / n - ThinPatch::kColumns, thin.rows)) continue;
-    // Smaller steps along rows let these be farther apart; it pays where steps are long.
+    // With one more level, steps along rows are smaller, and rows may be farther apart. That saves
+    // vertices if the steps are long.
     constexpr double kLongStep = 2.0 / 3;
     if (step < kLongStep) return thin;
     best = thin;

@@ -10,28 +10,29 @@
 
 namespace vox {
 
-/// A regular vertex whose descendants crowd: a patch much longer than wide, or one whose rows and
-/// columns run nearly the same way, as around a face of thousands of sides. Of the N x N vertices
-/// it becomes, N = 2^levels, the outermost and some whole rows do for all of them: the strips
-/// between these rows can be filled from around with faces as small as vertex conversion needs
-/// (patch_strips.h), and what lies around the patch sees the outermost of all N x N vertices, as it
-/// would of a whole one (mixed depths, DESIGN section 9).
+/// A regular vertex whose N x N descendants (N = 2^levels) are much denser than needed: a patch
+/// much longer than wide, or one whose rows and columns run nearly the same way, as around a face
+/// of thousands of sides. Some whole rows and the two outermost columns are enough. The strips
+/// between these rows can be filled with faces as small as vertex conversion needs
+/// (patch_strips.h). All outermost vertices are there, so the neighbours of the patch fit to it as
+/// to a whole patch (mixed depths, DESIGN section 9).
 struct ThinPatch {
-  Patch patch;  ///< seen from one of its four sides: rows run along v
-  int levels;   ///< of its N vertices along u and v; one more than the patch needs, or as many
-  std::vector<std::int64_t> rows;              ///< ascending; 0 and N - 1 among them
-  static constexpr std::int64_t kColumns = 2;  ///< the first and the last
+  Patch patch;                     ///< turned by quarter turns so that the rows run along v
+  int levels;                      ///< N = 2^levels; as many levels as the patch needs, or one more
+  std::vector<std::int64_t> rows;  ///< rows to emit: ascending, with 0 and N - 1
+  static constexpr std::int64_t kColumns = 2;  ///< columns to emit: the first and the last
+  /// Number of vertices to emit.
   std::int64_t vertices() const {
     return (static_cast<std::int64_t>(rows.size()) + kColumns) << levels;
   }
 };
 
-/// If the vertex is one and it pays.
-/// @param patch   of finite points
-/// @param levels  that the patch needs (patchDepth)
+/// The thin patch of a regular vertex; nothing if the vertex is not thin or if that saves little.
+/// @param patch   with finite points
+/// @param levels  patchDepth(patch)
 std::optional<ThinPatch> thinPatch(const Patch& patch, int levels);
 
-/// A regular vertex, as deep as it needs, and thin if it is.
+/// A regular vertex with its depth and, if it is thin, its thin patch.
 struct PatchPart {
   explicit PatchPart(const Patch& vertex)
       : patch(vertex), levels(patchDepth(vertex)), thin(thinPatch(vertex, levels)) {}
@@ -40,12 +41,14 @@ struct PatchPart {
   std::optional<ThinPatch> thin;
 };
 
-/// The four children, if these have far fewer vertices: where part of a patch turns back on itself,
-/// or is wide.
+/// The four children of a thin patch, if together they need far fewer vertices; else nothing. This
+/// happens if a part of the patch turns back on itself, or is wide.
 std::optional<std::array<PatchPart, 4>> cheaperChildren(const ThinPatch& thin);
 
-/// Calls thin(ThinPatch, level) or whole(patch, levels, level) for the parts that together are what
-/// becomes of a regular vertex of `level`: for itself, or for descendants of it.
+/// Splits a regular vertex of `level` into parts: the vertex itself or, where it is cheaper, its
+/// children, theirs, and so on. Calls thin(ThinPatch, level) for each thin part and
+/// whole(patch, levels, level) for each other part, with the level of the part and its depth. The
+/// parts together have all descendants of the vertex. Serial.
 template <class Thin, class Whole>
 void forEachPatchPart(const PatchPart& part, int level, Thin&& thin, Whole&& whole) {
   if (!part.thin) return whole(part.patch, part.levels, level);

@@ -1,4 +1,4 @@
-// Descendants of a vertex as an array.
+// The descendants of a vertex as an array.
 
 #include "libvox/subdivide/vertex_array.h"
 
@@ -7,7 +7,7 @@
 namespace vox {
 namespace {
 
-/// The patch with the directions of u and v turned round.
+/// The patch with the directions of u and v reversed.
 Patch turned(const Patch& patch) {
   Patch other;
   for (std::size_t u = 0; u < 3; ++u)
@@ -21,10 +21,11 @@ Patch pointPatch(const Vec3d& point) {
   return patch;
 }
 
-/// A point with the tangent plane of the surface at its limit point, the centroid of its V-face:
-/// that of the bimedians of this quad, which the first harmonic of Doo-Sabin keeps.
+/// A patch that gives the normal at a point: the tangent plane of the surface at the limit point,
+/// which is the centroid of the V-face of the point. The bimedians of this quad span the plane; the
+/// first harmonic of Doo-Sabin keeps it.
 Patch tangentPatch(const Vec3d& point, const VertexSplit& split) {
-  // Of the child in F, the points around the V-face, as far as its faces exist.
+  // The points of the V-face are in the patch of the child in F; missing ones are continued.
   const Patch child = continued(split.childInF());
   const auto& p = child.points;
   const Vec3d along = (p[1][1] - p[0][0]) / 2.0;
@@ -38,7 +39,7 @@ Patch tangentPatch(const Vec3d& point, const VertexSplit& split) {
   return patch;
 }
 
-/// Of the normals from column `first` on, those in a block.
+/// Sets the normals of those vertices, from column `first` on, that lie in a block.
 void normalsOfBlockAlongV(const VertexArray::Block& block, SplinePlace u, std::int64_t first,
                           std::span<Vec3d> normals) {
   const auto end = std::min(first + static_cast<std::int64_t>(normals.size()), block.endV());
@@ -50,7 +51,7 @@ void normalsOfBlockAlongV(const VertexArray::Block& block, SplinePlace u, std::i
         row.at(SplinePlace::ofVertex(j - block.v, block.sizeV()));
 }
 
-/// The same from row `first` on.
+/// Sets the normals of those vertices, from row `first` on, that lie in a block.
 void normalsOfBlockAlongU(const VertexArray::Block& block, SplinePlace v, std::int64_t first,
                           std::span<Vec3d> normals) {
   const auto end = std::min(first + static_cast<std::int64_t>(normals.size()), block.endU());
@@ -101,13 +102,14 @@ void VertexArray::add(const Patch& patch, std::int64_t u, std::int64_t v, int k)
   blocks_.push_back({patch, u, v, {log2, log2}});
 }
 
-/// @param split  makes the step that the normal takes
+/// Adds a block of one irregular vertex.
+/// @param split  returns the step at the vertex, from which its normal is computed
 template <class Split>
 void VertexArray::addPoint(const Vec3d& point, Split&& split, std::int64_t u, std::int64_t v) {
   add(normals_ ? tangentPatch(point, split()) : pointPatch(point), u, v, 0);
 }
 
-/// The blocks of a vertex of the first level, from row u and column v on.
+/// Adds the blocks of a corner of an extraordinary F of level 2, from row u and column v on.
 void VertexArray::addInF(ExtraordinaryLevels& levels, std::size_t place, std::int64_t u,
                          std::int64_t v, int k) {
   for (int l = 0;; ++l, --k) {
@@ -124,10 +126,11 @@ void VertexArray::addInF(ExtraordinaryLevels& levels, std::size_t place, std::in
   }
 }
 
-/// The same from row and column 0 on, with everything turned round.
+/// Adds the blocks of a corner of an extraordinary V-face of level 2, from row and column 0 on. All
+/// patches are turned by half a turn, because u and v fall towards the V-face.
 void VertexArray::addInVFace(ExtraordinaryLevels& levels, std::size_t place, int k) {
   for (int l = 0;; ++l, --k) {
-    // Turned by half a turn, tangents have the same normal.
+    // Half a turn does not change the normal of the tangent plane.
     if (k == 0)
       return addPoint(
           levels.level(l).face.inner[place], [&] { return levels.split(l, place); }, 0, 0);
@@ -195,7 +198,7 @@ void VertexArray::normalsAlongU(std::int64_t j, std::int64_t first,
                            normals);
 }
 
-// The mirror image of the surface makes its boundary an end of patches.
+// With the mirror image of the surface beyond it, the boundary is where patches end: parameter 0.
 
 void VertexArray::normalsAcrossR(std::int64_t first, std::span<Vec3d> normals) const {
   for (const Block& block : blocks_)

@@ -18,48 +18,52 @@ struct VertexDepth {
   bool operator==(const VertexDepth&) const = default;
 };
 
-/// More than any surface has room for: 2^60 vertices.
+/// Largest depth: a vertex has 2^60 descendants there, more than fit into any memory.
 inline constexpr int kMostDepth = 30;
 
-/// A level-1 vertex and what lies around it, as far as it is known: points that are not known are
-/// 0, and rows of descendants that do not depend on them have the same bits all the same.
+/// A level-1 vertex and the points around it. Points that are not known are 0. Rows of descendants
+/// that do not depend on them have the same bits as if they were known.
 struct LevelOneVertex {
   LevelOneVertex();
 
   Vec3d at = Vec3d::Zero();
   bool regular = false;
-  Patch patch;  ///< of a regular vertex
+  Patch patch;  ///< only for a regular vertex
 
-  // Of an irregular one, level 2:
+  // Only for an irregular vertex:
   VertexSplit split;
-  bool quadF = true;      ///< split.fOpposite is known
-  bool quadVFace = true;  ///< split.vFaceOpposite is known
-  // Where they are no quads:
+  bool quadF = true;      ///< false: F is not a quad, and levelsOfF is set
+  bool quadVFace = true;  ///< false: the V-face is not a quad, and levelsOfVFace is set
+  /// The levels of F, and the place of the vertex among its corners.
   ExtraordinaryLevels* levelsOfF = nullptr;
   std::size_t placeInF = 0;
-  ExtraordinaryLevels* levelsOfVFace =
-      nullptr;  ///< its corners run round the other way: R is behind L
+  /// The same for the V-face. Its corners run the other way round: the next corner lies across L.
+  ExtraordinaryLevels* levelsOfVFace = nullptr;
   std::size_t placeInVFace = 0;
-  std::optional<BoundaryCorner> corner;  ///< in place of the V-face, where the vertex has one face
+  /// In place of the V-face: the child in it, if the base vertex is on the boundary and has only
+  /// one face.
+  std::optional<BoundaryCorner> corner;
 
-  /// Whether its descendants are an array with faces between them: else they are rows at most.
+  /// Whether all four faces around the vertex exist, so that there are faces between its
+  /// descendants.
   bool whole() const {
     return regular ? patch.quadrants == kAllQuadrants : split.hasR && split.hasL && split.hasVFace;
   }
 };
 
-/// The descendants of a level-1 vertex: whatever the valences, an array of 2^u x 2^v vertices with
-/// quads between them. F lies at its end where u and v are largest, the V-face at the other, R
-/// where u is largest and v smallest, L opposite R (vertex_split.h).
+/// The descendants of a level-1 vertex. For all valences they are an array of 2^u x 2^v vertices
+/// with quads between them. F lies at the corner of the array where u and v are largest, the V-face
+/// at the opposite corner, R where u is largest and v smallest, L opposite R (vertex_split.h).
 ///
-/// A regular vertex is one block in closed form. An irregular one is 2 x 2 blocks for its children
-/// in R, L, F and the V-face, of which those in F and the V-face go on in the same way, level by
-/// level. All points are evaluated in one way, so that they have the same bits for whoever asks.
+/// The array consists of blocks. A regular vertex is one block in closed form. An irregular vertex
+/// is 2 x 2 blocks, for its children in R, L, F and the V-face. If F or the V-face is not a quad,
+/// the child in it is split in the same way, level by level. All functions evaluate a point in the
+/// same way, so that it always has the same bits. Several threads may read an array.
 class VertexArray {
  public:
-  /// Part of the array: first row and column, logarithms of the sizes. Where the vertex of a block
-  /// of one point is not regular, the patch says no more than the point and, if normals are wanted,
-  /// the tangent plane: the normal has the same closed form in every block.
+  /// A block: its patch, first row and column, and depth. A block of one irregular vertex has a
+  /// patch that only gives its point and, with normals, the tangent plane; so normals have the same
+  /// closed form in every block.
   struct Block {
     Patch patch;
     std::int64_t u, v;
@@ -70,34 +74,37 @@ class VertexArray {
     std::int64_t endV() const { return v + sizeV(); }
   };
 
+  /// Sets the array of a level-1 vertex.
   /// @param depth    u = v for an irregular vertex
-  /// @param normals  whether normals will be asked for; then all around the vertex must be known
+  /// @param normals  whether the functions for normals will be used; then all points around the
+  ///   vertex must be known
   void set(const LevelOneVertex& vertex, VertexDepth depth, bool normals = false);
-  /// The array of a regular vertex of any level.
+  /// Sets the array of a regular vertex of any level.
   void set(const Patch& patch, VertexDepth depth) {
     depth_ = depth;
     blocks_.assign(1, {patch, 0, 0, depth});
   }
 
-  /// They cover the array once.
+  /// The blocks; they cover the array once.
   const std::vector<Block>& blocks() const { return blocks_; }
 
   VertexDepth depth() const { return depth_; }
   std::int64_t sizeU() const { return std::int64_t{1} << depth_.u; }
   std::int64_t sizeV() const { return std::int64_t{1} << depth_.v; }
 
-  /// Vertices (i, j) with j = first, first + 1, ...
+  /// Sets `points` to the vertices (i, j) with j = first, first + 1, ...
   void alongV(std::int64_t i, std::int64_t first, std::span<Vec3d> points) const;
-  /// Vertices (i, j) with i = first, first + 1, ...
+  /// Sets `points` to the vertices (i, j) with i = first, first + 1, ...
   void alongU(std::int64_t j, std::int64_t first, std::span<Vec3d> points) const;
+  /// Vertex (i, j).
   Vec3d at(std::int64_t i, std::int64_t j) const {
     Vec3d point;
     alongV(i, j, {&point, 1});
     return point;
   }
 
-  /// Exact unit normals of the smooth surface at the limit points of these vertices, outward; 0
-  /// where there is none. With the same bits for whoever asks.
+  /// Exact normals of the smooth surface at the limit points of the same vertices: unit, outward; 0
+  /// if there is none.
   void normalsAlongV(std::int64_t i, std::int64_t first, std::span<Vec3d> normals) const;
   void normalsAlongU(std::int64_t j, std::int64_t first, std::span<Vec3d> normals) const;
   Vec3d normalAt(std::int64_t i, std::int64_t j) const {
@@ -105,9 +112,9 @@ class VertexArray {
     normalsAlongV(i, j, {&normal, 1});
     return normal;
   }
-  /// Beside a vertex at the boundary of an extended surface: the normals on the boundary itself,
-  /// across R from the vertices (i, 0), i = first, first + 1, ..., and across L from (0, j). Beside
-  /// a block of one irregular vertex, that vertex's.
+  /// For a vertex beside the boundary of an extended surface: the normals on the boundary itself,
+  /// across R from the vertices (i, 0), i = first, first + 1, ..., and across L from the vertices
+  /// (0, j). Beside a block of one irregular vertex it is the normal of this vertex.
   void normalsAcrossR(std::int64_t first, std::span<Vec3d> normals) const;
   void normalsAcrossL(std::int64_t first, std::span<Vec3d> normals) const;
 

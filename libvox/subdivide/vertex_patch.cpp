@@ -1,4 +1,4 @@
-// The neighbourhood of a vertex of a whole level.
+// The patch around a vertex of a level.
 
 #include "libvox/subdivide/vertex_patch.h"
 
@@ -12,8 +12,8 @@
 namespace vox {
 namespace {
 
-/// The values of a quad from one of its corners on. Two on the boundary of an extended surface are
-/// replaced by mirror images of the other two, whose middles they are.
+/// The values of a quad, from one of its corners on. If two of them are on the boundary of an
+/// extended surface, they are replaced by the mirror images of the other two about them.
 std::array<Vec3d, 4> quadFrom(const SubdivisionLevel& level, Index corner,
                               std::span<const Vec3d> values) {
   std::array<Vec3d, 4> points;

@@ -8,12 +8,12 @@
 
 namespace vox {
 
-/// The regular patch of a vertex of a level >= 1 of which all faces are quads: four, or fewer at a
-/// free boundary; else nothing. Boundary points of an extended surface are replaced by the mirror
-/// images that make strip faces ordinary ones.
+/// The patch around a vertex of a level >= 1; nothing if the vertex is not regular. It is regular
+/// if its faces are quads: four of them, or fewer at a free boundary. Boundary points of an
+/// extended surface are replaced by mirror images, so that strip faces become whole quads.
 ///
-/// @param ring    of the vertex
-/// @param values  of the points of the level: their positions, or whatever is refined like them
+/// @param ring    one-ring of the vertex
+/// @param values  one per point of the level: the positions, or others refined with their weights
 std::optional<Patch> patchAround(const SubdivisionLevel& level, const OneRing& ring,
                                  std::span<const Vec3d> values);
 

@@ -1,4 +1,4 @@
-// The children of a vertex, as far as they are regular: which control points lie around them.
+// The patches of the children of a vertex, as far as they are regular.
 
 #include "libvox/subdivide/vertex_split.h"
 
@@ -8,13 +8,13 @@
 namespace vox {
 namespace {
 
-/// Quadrants of a child: its own face, and those of the parent's neighbours that exist.
+/// The set of the quadrants that exist.
 std::uint8_t quadrants(bool q0, bool q1, bool q2, bool q3) {
   return static_cast<std::uint8_t>((q0 ? 1U : 0U) | (q1 ? 2U : 0U) | (q2 ? 4U : 0U) |
                                    (q3 ? 8U : 0U));
 }
 
-/// Rows are written as such, columns as rows of the patch seen from another side.
+/// Emits the rows as curves; the columns are rows of the patch turned by a quarter.
 void emitThin(const ThinPatch& thin, int level, SurfaceSink& sink) {
   const int k = thin.levels;
   const std::int64_t n = std::int64_t{1} << k;
@@ -39,7 +39,7 @@ void emitRegular(const Patch& patch, int level, SurfaceSink& sink) {
 }
 
 Patch VertexSplit::childInR() const {
-  const bool interior = hasR && hasL && hasVFace;  // the vertex has a V-face
+  const bool interior = hasR && hasL && hasVFace;  // the vertex makes a V-face
   return {{{{vFaceRight, vFace0, l[0]}, {r[3], r[0], f0}, {r[2], r[1], fNext}}},
           quadrants(hasVFace, interior, true, true)};
 }

@@ -1,4 +1,4 @@
-// From active voxels to their colours.
+// Colour grids on the active voxels of a mask.
 
 #include "libvox/volume/color.h"
 

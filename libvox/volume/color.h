@@ -7,15 +7,16 @@
 
 namespace vox {
 
-/// Linear colour of what has none of its own.
+/// Linear grey value of voxels of objects without a colour.
 inline constexpr float kPlainColor = 0.8F;
 
-/// Grid `color`: kPlainColor at the voxels of the mask, background 0, the mask's transform.
+/// Grid `color`: kPlainColor at the voxels of the mask, background 0, transform of the mask.
 openvdb::Vec3SGrid::Ptr colorGrid(const openvdb::MaskGrid& mask);
 
-/// Gives voxels of a colour grid new colours. Parallel by leaf.
-/// @param voxels   all in leaves, all active in the grid
-/// @param colorOf  linear colour of a voxel: openvdb::Vec3f(const openvdb::Coord&); thread-safe
+/// Sets the colours of voxels of a colour grid. Parallel over leaves.
+/// @param voxels   without tiles; all of them must be active in the grid
+/// @param colorOf  returns the linear colour of a voxel, as openvdb::Vec3f(const openvdb::Coord&);
+///   must be thread-safe
 template <class ColorOf>
 void paint(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels, ColorOf&& colorOf) {
   const openvdb::tree::LeafManager<const openvdb::MaskTree> leaves(voxels);

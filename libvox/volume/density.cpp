@@ -1,4 +1,4 @@
-// From active voxels to a fog volume.
+// Fog volumes on the active voxels of a mask.
 
 #include "libvox/volume/density.h"
 
@@ -10,7 +10,7 @@ namespace vox {
 
 double densityValue(const VolumeOptions& options, double voxelSize) {
   constexpr double kDepthOfVoxel = 6;
-  constexpr double kMost = 60000;  // what half floats hold
+  constexpr double kMost = 60000;  // half floats hold a little more
   if (options.gain) return *options.gain;
   if (options.target == Target::kHoudini) return 1;
   return std::clamp(kDepthOfVoxel / voxelSize, 1.0, kMost);

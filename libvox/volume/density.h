@@ -7,16 +7,17 @@
 
 namespace vox {
 
-/// Metadata of a grid `density`, and of its file: the value at its voxels (float).
+/// Name of the metadata, of a grid `density` and of its file, with the value of its voxels (float).
 inline constexpr const char* kGainMetadata = "vox_gain";
 
-/// What `density` holds at its voxels: the gain, or what suits the target. Blender takes densities
-/// per unit of length, so that a shell one voxel thick is opaque there from 6 / voxel size on
-/// (exp(-6) of the light passes), and drops voxels of next to nothing: 1 at least.
+/// Value of `density` at its voxels: the option `gain` if it is set; else 1 for Houdini, and
+/// 6 / voxelSize, from 1 to 60000, for Blender. Blender's densities are per unit of length: with
+/// this value a shell one voxel thick is opaque (exp(-6) of the light passes). Blender ignores
+/// voxels with densities near 0, so the value is at least 1.
 /// @param voxelSize  world units
 double densityValue(const VolumeOptions& options, double voxelSize);
 
-/// Fog volume `density`: `value` at the voxels and tiles of the mask, background 0.
+/// Fog volume `density`: `value` at the active voxels and tiles of the mask, background 0.
 std::shared_ptr<openvdb::FloatGrid> densityGrid(const openvdb::MaskTree& mask, float value = 1);
 
 }  // namespace vox

@@ -7,9 +7,10 @@
 
 namespace vox {
 
-/// Disjoint sets of 0 .. count - 1 that any number of threads may join at once, without locks. A
-/// set is known by its lowest element, so the outcome does not depend on the order.
-/// Source: Anderson & Woll 1991, with links from higher to lower elements.
+/// Disjoint sets of the numbers 0 .. count - 1. Thread-safe without locks: any number of threads
+/// may call find and unite at the same time. A set is named by its lowest element, so the result
+/// does not depend on the order of calls. Source: Anderson & Woll 1991, with links from higher to
+/// lower elements.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parents_(count) {
@@ -17,7 +18,7 @@ class DisjointSets {
       parents_[i].store(static_cast<std::uint32_t>(i), std::memory_order_relaxed);
   }
 
-  /// Lowest element of the set of x, once nobody joins any more.
+  /// Lowest element of the set of x. While other threads join sets, it may be outdated.
   std::uint32_t find(std::uint32_t x) {
     for (;;) {
       std::uint32_t parent = parents_[x].load(std::memory_order_relaxed);
@@ -29,6 +30,7 @@ class DisjointSets {
     }
   }
 
+  /// Joins the sets of a and b.
   void unite(std::uint32_t a, std::uint32_t b) {
     for (;;) {
       a = find(a);

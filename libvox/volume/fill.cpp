@@ -1,6 +1,6 @@
-// Flood of the outside over the tree of a surface: connected sets of inactive voxels in leaves,
-// empty leaves' places and empty inner nodes' places are the elements, joined where their faces
-// touch.
+// Union-find over the tree of a surface. Its elements are connected sets of inactive voxels in
+// leaves, and places of nodes without a leaf or an inner node. Elements that touch with their faces
+// are joined; what is not joined to the outside is enclosed.
 
 #include "libvox/volume/fill.h"
 
@@ -32,14 +32,14 @@ constexpr Element kOutside = 0;
 constexpr Element kActive = std::numeric_limits<Element>::max();
 constexpr std::size_t kLeavesPerTask = 64;
 
-/// Step across a side.
+/// Vector of a length perpendicular to a side of a cube (kSides), pointing outward.
 Coord stepAcross(int side, int length) {
   Coord step(0, 0, 0);
   step[side / 2] = side % 2 == 1 ? length : -length;
   return step;
 }
 
-/// By row along x: then consecutive ones have nothing between them.
+/// Order by rows along x. Neighbours in this order, in one row, have no other element between them.
 struct ByRow {
   bool operator()(const Coord& a, const Coord& b) const {
     return std::make_tuple(a.z(), a.y(), a.x()) < std::make_tuple(b.z(), b.y(), b.x());
@@ -53,7 +53,7 @@ LeafWords wordsOf(const Leaf& leaf) {
   return words;
 }
 
-/// Whether a place in a node is empty.
+/// Whether a place in a node has neither a child nor an active tile.
 template <class Node>
 bool isInactive(const Node& node, openvdb::Index slot) {
   return !node.isChildMaskOn(slot) && !node.isValueMaskOn(slot);
@@ -69,7 +69,7 @@ class Flood {
     numberElements();
   }
 
-  /// Joins what touches.
+  /// Joins all elements that touch.
   void run() {
     sets_ = std::make_unique<DisjointSets>(elementCount_);
     parallelForEach(lowers_.size(), 1, [&](std::size_t l) { joinInLower(l); });
@@ -77,9 +77,9 @@ class Flood {
     joinAroundUppers();
   }
 
-  /// Gives back to the outside what the caller says is a cavity.
+  /// Joins the regions that are cavities to the outside.
   void open(const AreCavities& areCavities) {
-    std::map<Element, std::pair<int, Coord>> deepest;  // of each enclosed region: how deep, where
+    std::map<Element, std::pair<int, Coord>> deepest;  // depth and voxel, by enclosed region
     forEachEnclosed([&](Element e, int depth, const Coord& voxel) {
       const auto [region, isNew] = deepest.try_emplace(sets_->find(e), depth, voxel);
       if (!isNew && depth > region->second.first) region->second = {depth, voxel};
@@ -93,7 +93,7 @@ class Flood {
       if (cavity[i++]) sets_->unite(region, kOutside);
   }
 
-  /// Switches on what is enclosed, in a copy of the surface.
+  /// Switches on everything that is enclosed, in a copy of the surface.
   void fill(MaskTree& copy) {
     std::vector<Upper*> uppers;
     std::vector<Lower*> lowers;
@@ -109,8 +109,8 @@ class Flood {
   }
 
  private:
-  // Elements: the outside; inactive regions of leaves; places in lower and upper nodes, whether or
-  // not they are empty; empty neighbours of upper nodes.
+  // Elements, in the order of their numbers: the outside; inactive regions of leaves; all places in
+  // lower nodes and then in upper nodes, empty or not; empty neighbours of upper nodes (the shell).
   Element leafElement(Element region) const { return 1 + region; }
   Element lowerElement(std::size_t l, openvdb::Index slot) const {
     return static_cast<Element>(firstOfLowers_ + l * Lower::NUM_VALUES + slot);
@@ -118,7 +118,7 @@ class Flood {
   Element upperElement(std::size_t u, openvdb::Index slot) const {
     return static_cast<Element>(firstOfUppers_ + u * Upper::NUM_VALUES + slot);
   }
-  /// Of an element that is inactive.
+  /// Whether an inactive element is enclosed. Valid after run().
   bool isEnclosed(Element e) { return sets_->find(e) != kOutside; }
 
   void findLeaves() {
@@ -156,7 +156,7 @@ class Flood {
       throw LimitError("the surface has too many leaves to fill; use larger voxels");
   }
 
-  /// Upper nodes and the empty places around them, in rows along x.
+  /// Finds the empty places of upper nodes around the existing ones.
   void findShell() {
     for (const auto& [origin, u] : upperAt_)
       for (int i = -1; i <= 1; ++i)
@@ -173,7 +173,7 @@ class Flood {
     return static_cast<Element>(firstOfShell_ + shell_.at(origin));
   }
 
-  /// Of a place that is inside no lower node; kActive if it is no element.
+  /// The element that holds a voxel outside all lower nodes; kActive if that is an active tile.
   Element elementAround(const Coord& voxel) const {
     const Coord origin = voxel & ~(static_cast<int>(Upper::DIM) - 1);
     const auto upper = upperAt_.find(origin);
@@ -183,7 +183,8 @@ class Flood {
     return upperElement(upper->second, slot);
   }
 
-  /// Calls visit(element, its voxels on a side) for the elements at a place of a lower node.
+  /// Calls visit(element, bits) for the elements at a place of a lower node that reach a side of
+  /// the place; the bits are their voxels on this side (sideOf).
   template <class Visit>
   void forSide(std::size_t l, openvdb::Index slot, int side, Visit&& visit) const {
     if (lowers_[l]->isValueMaskOn(slot)) return;  // active
@@ -211,7 +212,8 @@ class Flood {
     });
   }
 
-  /// Each place with the next along each axis; at the border of the node, with what is there.
+  /// Joins the elements of each place of a lower node with those of the next place along each axis.
+  /// At the border of the node, the next place may be in another node.
   void joinInLower(std::size_t l) {
     constexpr int kSide = 1 << Lower::LOG2DIM;
     constexpr int kLeafDim = Leaf::DIM;
@@ -239,7 +241,8 @@ class Flood {
     }
   }
 
-  /// Empty places with what is around them and has no lower node: those are joined from there.
+  /// Joins the empty places of an upper node with their neighbours, except lower nodes: these are
+  /// joined in joinInLower.
   void joinInUpper(std::size_t u) {
     for (openvdb::Index slot = 0; slot < Upper::NUM_VALUES; ++slot) {
       if (!isInactive(*uppers_[u], slot)) continue;
@@ -251,10 +254,11 @@ class Flood {
     }
   }
 
-  /// The empty neighbours of upper nodes: with neighbours, with the next one in the row if there is
-  /// no upper node between them, and the first of a row with the outside. That joins all that is
-  /// connected: the empty places around a set of upper nodes that hang together are connected among
-  /// themselves, and from the leftmost of such a set the row leads to what is around it.
+  /// Joins the elements of the shell: with their neighbours along y and z; with the previous one in
+  /// the row, if there is no upper node between them; and the first one of a row with the outside.
+  /// That joins all that are connected. For a connected set of upper nodes, the empty places around
+  /// it are connected with each other; and from the leftmost of them the row leads to the places
+  /// around this set.
   void joinAroundUppers() {
     constexpr int kDim = static_cast<int>(Upper::DIM);
     for (auto place = shell_.begin(); place != shell_.end(); ++place) {
@@ -289,7 +293,7 @@ class Flood {
     constexpr int kDim = static_cast<int>(Upper::DIM);
     for (auto place = shell_.begin(); place != shell_.end(); ++place) {
       if (!isEnclosed(shellElement(place->first))) continue;
-      // All empty places up to the next known one belong to it.
+      // The element stands for all empty places up to the next known place in the row.
       Coord at = place->first;
       do {
         copy.root().addTile(at, true, true);
@@ -298,7 +302,7 @@ class Flood {
     }
   }
 
-  /// Calls visit(element, how deep, voxel) for everything enclosed.
+  /// Calls visit(element, depth, voxel) for each enclosed element, with its deepest voxel.
   template <class Visit>
   void forEachEnclosed(Visit&& visit) {
     const auto visitTile = [&](Element e, const Coord& origin, int dim) {
@@ -327,12 +331,12 @@ class Flood {
 
   std::vector<const Upper*> uppers_;
   std::vector<const Lower*> lowers_;
-  std::vector<const Leaf*> leaves_;       // of one lower node after the other
+  std::vector<const Leaf*> leaves_;       // lower node after lower node
   std::map<Coord, std::size_t> upperAt_;  // by origin
   std::map<Coord, std::size_t> lowerAt_;
   std::map<Coord, Element, ByRow> shell_;  // empty neighbours of upper nodes
-  std::vector<Element> firstLeaf_;         // per lower node
-  std::vector<Element> firstRegion_;       // per leaf, and the end
+  std::vector<Element> firstLeaf_;         // per lower node: index of its first leaf
+  std::vector<Element> firstRegion_;       // per leaf, + 1: index of its first region
   std::vector<LeafWords> regions_;
   std::size_t firstOfLowers_ = 0;
   std::size_t firstOfUppers_ = 0;
@@ -354,7 +358,7 @@ openvdb::MaskTree::Ptr filled(const openvdb::MaskTree& surface, const AreCavitie
 
 std::uint64_t bytesOfFilling(const openvdb::MaskTree& surface) {
   const auto nodes = surface.nodeCount();  // leaves first, root last
-  constexpr std::uint64_t kRegions = 2;    // of a leaf, mostly
+  constexpr std::uint64_t kRegions = 2;    // most leaves have no more
   return nodes[0] * (sizeof(Leaf) + 2 * kRegions * sizeof(LeafWords)) +
          nodes[1] * (sizeof(Lower) + Lower::NUM_VALUES * sizeof(Element)) +
          nodes[2] * (sizeof(Upper) + Upper::NUM_VALUES * sizeof(Element));

@@ -21,12 +21,12 @@ int lowestVoxel(const LeafWords& leaf) {
   return 64 * x + std::countr_zero(leaf[static_cast<std::size_t>(x)]);
 }
 
-/// Voxels of the plane, and their neighbours in it.
+/// The voxels of a plane and their neighbours in the plane.
 std::uint64_t grownInPlane(std::uint64_t word) {
   return word | word << 8U | word >> 8U | (word & ~kHighZ) << 1U | (word & ~kLowZ) >> 1U;
 }
 
-/// The set within `allowed` that is connected to a voxel.
+/// The set of voxels within `allowed` that are connected to a voxel through faces.
 LeafWords floodedFrom(int voxel, const LeafWords& allowed) {
   LeafWords flooded{};
   flooded[static_cast<std::size_t>(voxel / 64)] = std::uint64_t{1} << (voxel % 64);
@@ -57,7 +57,7 @@ LeafWords eroded(const LeafWords& leaf) {
   return result;
 }
 
-/// Bits 0, 8, .. 56 as bits 0 .. 7.
+/// Bits 0, 8, .. 56 of a word, moved to bits 0 .. 7.
 std::uint64_t gathered(std::uint64_t column) {
   return column * 0x0102040810204080U >> 56U;
 }
@@ -87,7 +87,7 @@ void appendInactiveRegions(const LeafWords& active, std::vector<LeafWords>& regi
 
 DeepVoxel deepestOf(const LeafWords& region) {
   LeafWords core = region;
-  constexpr int kMostErosions = 16;  // more than a leaf survives, unless it is all there
+  constexpr int kMostErosions = 16;  // only the whole leaf survives so many
   for (int depth = 0;; ++depth) {
     const LeafWords next = eroded(core);
     if (depth == kMostErosions || isEmpty(next)) return {depth, lowestVoxel(core)};

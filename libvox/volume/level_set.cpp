@@ -1,4 +1,4 @@
-// Narrow bands of distances, through OpenVDB's meshToVolume.
+// Narrow bands of distances by OpenVDB's meshToVolume.
 
 #include "libvox/volume/level_set.h"
 
@@ -14,7 +14,7 @@
 namespace vox {
 namespace {
 
-/// A mesh as meshToVolume asks for it, at full precision.
+/// A mesh with the interface that meshToVolume needs, in double precision.
 class MeshAdapter {
  public:
   explicit MeshAdapter(const PolygonMesh& mesh) : mesh_(mesh) {}
@@ -32,7 +32,7 @@ class MeshAdapter {
   const PolygonMesh& mesh_;
 };
 
-/// What OpenVDB asks whether to go on.
+/// Interrupter for OpenVDB: it ends the work when `cancelled` returns true.
 struct Interrupter {
   const std::function<bool()>& cancelled;
   void start(const char*) {}
@@ -40,14 +40,15 @@ struct Interrupter {
   bool wasInterrupted(int = -1) { return cancelled(); }
 };
 
-/// Distances to a sheet from those to its middle.
+/// Turns distances to the middle of a sheet into distances to the sheet.
 void thicken(openvdb::FloatGrid& grid, float halfThickness) {
   openvdb::tools::foreach (grid.beginValueOn(), [halfThickness](const auto& value) {
     value.setValue(*value - halfThickness);
   });
 }
 
-/// The smallest float that is not below: OpenVDB takes a band below 3 voxels for too narrow.
+/// The smallest float that is not below a value. (OpenVDB refuses a band a little below 3 voxels as
+/// too narrow.)
 float notBelow(double value) {
   const auto nearest = static_cast<float>(value);
   return double{nearest} < value ? std::nextafter(nearest, std::numeric_limits<float>::max())
@@ -75,10 +76,10 @@ openvdb::FloatGrid::Ptr distanceGrid(const PolygonMesh& polygons,
 
 DistanceBytes bytesOfDistances(double area, double band) {
   using Leaf = openvdb::FloatTree::LeafNodeType;
-  // A leaf is reached from 12 voxels around it, averaged over directions.
+  // On average over directions, a surface reaches leaves within 12 voxels around it.
   const double leaves = area * (12 + 2 * band) / Leaf::SIZE;
   const double bytes = leaves * (sizeof(Leaf) + Leaf::SIZE * sizeof(float));
-  constexpr double kPeak = 3;  // with the nearest polygon of each voxel, and parts not yet merged
+  constexpr double kPeak = 3;  // also the nearest polygon of each voxel, and parts not yet merged
   return {kPeak * bytes, bytes};
 }
 

@@ -8,32 +8,35 @@
 
 namespace vox {
 
-/// What a narrow band of distances is measured from.
+/// The object to which distances are measured.
 enum class DistanceTo {
-  kSolid,    ///< a closed surface, whichever way it faces: negative inside
-  kSheet,    ///< a sheet one voxel thick around the surface: negative in it
-  kSurface,  ///< the surface, without sign
+  kSolid,    ///< a closed surface, of any winding; distances inside are negative
+  kSheet,    ///< a sheet one voxel thick around the surface; distances inside it are negative
+  kSurface,  ///< the surface; distances have no sign
 };
 
-/// Narrow band of distances in world units: active where they are smaller than the band, which is
-/// the background (with a minus sign inside a solid).
+/// Narrow band of distances in world units. Voxels whose distance is smaller than the band are
+/// active. The background is the band; inside a solid it is negative.
 ///
-/// @param polygons   triangles and quads, in index space of `transform`
-/// @param band       half width in voxels, 1 or more
-/// @param cancelled  asked from time to time; the grid is of no use once it says yes
+/// @param polygons   triangles and quads, in the index space of `transform`
+/// @param band       half width in voxels, at least 1
+/// @param cancelled  called now and then, by any thread; if it returns true, the work ends and the
+///   grid must not be used
 ///
-/// Parallel; the result does not depend on the number of threads.
+/// Parallel; result independent of thread count.
 std::shared_ptr<openvdb::FloatGrid> distanceGrid(const PolygonMesh& polygons,
                                                  const openvdb::math::Transform& transform,
                                                  double band, DistanceTo what,
                                                  const std::function<bool()>& cancelled);
 
-/// Bytes that making one takes, and that it has in the end, from the area in square voxels, by and
-/// large.
+/// Memory of a band of distances.
 struct DistanceBytes {
-  double peak;
-  double grid;
+  double peak;  ///< while it is made
+  double grid;  ///< in the end
 };
+/// Estimate of the memory of a band.
+/// @param area  of the surface, in square voxels
+/// @param band  half width in voxels
 DistanceBytes bytesOfDistances(double area, double band);
 
 }  // namespace vox

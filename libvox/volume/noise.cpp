@@ -9,15 +9,16 @@
 namespace vox {
 namespace {
 
-/// A bijection of 64 bits in which every bit of the input changes half the output: the finalizer of
-/// SplitMix64 (G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, 2014).
+/// A bijection of 64 bits. Each bit of the input changes about half of the bits of the output.
+/// Source: the finalizer of SplitMix64 (G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom
+/// number generators, 2014).
 std::uint64_t mixed(std::uint64_t x) {
   x = (x ^ x >> 30U) * 0xbf58476d1ce4e5b9ULL;
   x = (x ^ x >> 27U) * 0x94d049bb133111ebULL;
   return x ^ x >> 31U;
 }
 
-/// 0 at 0, 1 at 1, first and second derivatives 0 at both.
+/// Smooth step: 0 at 0, 1 at 1; first and second derivatives are 0 at both ends.
 double fade(double t) {
   return t * t * t * (t * (t * 6 - 15) + 10);
 }
@@ -26,8 +27,8 @@ double between(double a, double b, double t) {
   return a + t * (b - a);
 }
 
-/// Product of (x, y, z) with one of the 12 directions to the edges of a cube; four of them count
-/// twice, to make it 16.
+/// Dot product of (x, y, z) and one of the 12 directions to the edges of a cube, chosen by 4 bits
+/// of the hash. Four directions are chosen by two values, to make it 16.
 double alongGradient(std::uint64_t hash, double x, double y, double z) {
   const std::uint64_t h = hash & 15U;
   const double u = h < 8 ? x : y;
@@ -35,7 +36,7 @@ double alongGradient(std::uint64_t hash, double x, double y, double z) {
   return ((h & 1U) == 0 ? u : -u) + ((h & 2U) == 0 ? v : -v);
 }
 
-/// Improved noise stays within 1.04.
+/// Upper bound of the magnitude of improved noise.
 constexpr double kLargest = 1.04;
 
 }  // namespace

@@ -6,24 +6,25 @@
 
 namespace vox {
 
-/// A cell of the unit lattice and the place in it.
+/// A cell of the unit lattice along one axis, and a position in it.
 struct LatticeCell {
   std::int64_t cell;
-  double inside;  ///< 0 <= inside < 1
+  double inside;  ///< position in the cell, 0 <= inside < 1
 };
-/// Cells of more than 2^52 in size all count as one: a double resolves no place in them.
+/// The cell of a coordinate. All coordinates above 2^52 are in one cell, because doubles resolve no
+/// positions there; so are all below -2^52.
 LatticeCell latticeCell(double x);
 
-/// 64 well-mixed bits of a cell. Integers only: the same on every processor.
+/// A hash of a cell, 64 well-mixed bits. Integers only: the same bits on every processor.
 std::uint64_t hashOfCell(std::int64_t i, std::int64_t j, std::int64_t k, std::uint32_t seed);
 
-/// Gradient noise: smooth (second derivatives are continuous), 0 at the points of the unit lattice,
-/// within -1 and 1, without preferred sign. Only + - * and floor: the same bits on every processor.
-/// Source: K. Perlin, Improving noise, 2002; the hash is our own.
+/// Gradient noise, from -1 to 1: smooth (second derivatives are continuous), 0 at the points of the
+/// unit lattice, positive as often as negative. Only + - * and floor: the same bits on every
+/// processor. Source: K. Perlin, Improving noise, 2002, with hashOfCell as the hash.
 double gradientNoise(const Vec3d& p, std::uint32_t seed);
 
-/// Sum of `octaves` noises, each of twice the frequency and half the height of the one before,
-/// scaled to lie within -1 and 1.
+/// Sum of `octaves` noises, from -1 to 1. Each has twice the frequency and half the height of the
+/// one before.
 double fractalNoise(const Vec3d& p, int octaves, std::uint32_t seed);
 
 }  // namespace vox

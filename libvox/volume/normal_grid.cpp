@@ -1,4 +1,4 @@
-// From means of vectors to unit normals.
+// Unit normals from means of vectors.
 
 #include "libvox/volume/normal_grid.h"
 
@@ -19,7 +19,7 @@ using NormalLeaf = NormalPage::ChildNodeType;
 
 const openvdb::Vec3s kZero(0, 0, 0);
 
-/// Of length 1, or 0.
+/// The direction of a sum, of length 1; 0 if the sum is 0.
 openvdb::Vec3s directionOf(const VoxelMeans::Sum& sum) {
   const openvdb::Vec3d v(static_cast<double>(sum.x), static_cast<double>(sum.y),
                          static_cast<double>(sum.z));
@@ -27,13 +27,14 @@ openvdb::Vec3s directionOf(const VoxelMeans::Sum& sum) {
   return length > 0 ? openvdb::Vec3s(v * (1 / length)) : kZero;
 }
 
-/// @param sum  of its first active voxel; the others' follow
+/// The leaf with the normals of the voxels of a leaf of the mask.
+/// @param sum  of the first active voxel; those of the other active voxels follow it
 std::unique_ptr<NormalLeaf> leafOf(const MaskPage::ChildNodeType& mask,
                                    const VoxelMeans::Sum* sum) {
   auto leaf = std::make_unique<NormalLeaf>(openvdb::PartialCreate(), mask.origin(), kZero);
   leaf->setValueMask(mask.valueMask());
   leaf->allocate();
-  // Once over its memory: most of the time goes there.
+  // A single pass over the memory of the leaf, because memory takes most of the time.
   openvdb::Vec3s* const values = leaf->buffer().data();
   for (openvdb::Index i = 0; i < NormalLeaf::SIZE; ++i)
     values[i] = mask.isValueOn(i) ? directionOf(*sum++) : kZero;

@@ -1,4 +1,4 @@
-// Patterns that fill space, of unit size.
+// Patterns in space, of unit size.
 
 #include "libvox/volume/patterns.h"
 
@@ -49,7 +49,7 @@ BrickCell brickAt(const Vec3d& p, double thickness, std::uint32_t seed) {
 }
 
 Vec3d rampAt(std::span<const Vec3d> colors, double t) {
-  const double inside = t > 0 ? std::min(t, 1.0) : 0;  // 0 if it is no number
+  const double inside = t > 0 ? std::min(t, 1.0) : 0;  // nan becomes 0
   const double place = inside * static_cast<double>(colors.size() - 1);
   const auto first = std::min(static_cast<std::size_t>(place), colors.size() - 2);
   const double part = place - static_cast<double>(first);

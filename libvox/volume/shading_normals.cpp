@@ -14,23 +14,25 @@ namespace {
 using openvdb::Coord;
 using Voxels = openvdb::tree::ValueAccessor<const openvdb::MaskTree>;
 
-/// Columns to each side. Over a wide window the rounding of voxels is averaged down to a fraction
-/// of a degree; small features and edges need a narrow one.
+/// Columns of the window to each side. A wide window averages the rounding of voxels down to a
+/// fraction of a degree; small features and edges need a narrow window.
 constexpr int kReach = 6;
 constexpr int kNarrowReach = 3;
 constexpr int kSide = 2 * kReach + 1;
 
-/// Most steps up or down to the next column of a sheet: slopes to 45 degrees, and rounding.
+/// Largest step up or down from a column of a sheet to the next: for slopes up to 45 degrees, and
+/// rounding.
 constexpr int kMostStep = 2;
 constexpr std::size_t kKnownLog2 = 9;
 
 constexpr int kNoHeight = std::numeric_limits<int>::max();
 
-/// Columns over the plane of axes u and v, heights along the third, toward the viewer.
+/// Coordinates of a height field: columns over the plane of axes u and v, heights along the third
+/// axis, toward the viewer.
 struct HeightFrame {
   Coord origin;
   int up, u, v;
-  int sign;  // of the direction up
+  int sign;  // whether heights grow along the axis (1) or against it (-1)
 
   Coord at(int i, int j, int height) const {
     Coord voxel = origin;
@@ -43,14 +45,15 @@ struct HeightFrame {
 
 using Heights = std::array<std::array<int, kSide>, kSide>;  // [i + kReach][j + kReach]
 
-/// Top of the run of voxels that holds a height, no more than kMostStep higher.
+/// Top of the run of active voxels that holds a height; at most kMostStep above the height.
 int climb(Voxels& voxels, const HeightFrame& frame, int i, int j, int height) {
   const int most = height + kMostStep;
   while (height < most && voxels.isValueOn(frame.at(i, j, height + 1))) ++height;
   return height;
 }
 
-/// Height of the sheet in a column, given that of a neighbour.
+/// Height of the sheet in a column, given the height in a neighbouring column; kNoHeight if the
+/// sheet ends there.
 int heightBeside(Voxels& voxels, const HeightFrame& frame, int i, int j, int neighbour) {
   if (neighbour == kNoHeight) return kNoHeight;
   const auto isOn = [&](int height) { return voxels.isValueOn(frame.at(i, j, height)); };
@@ -77,9 +80,9 @@ Heights heightsAround(Voxels& voxels, const HeightFrame& frame) {
   return heights;
 }
 
-/// What a plane h = a + p i + q j through columns is fitted from: sums over them of 1, i, j, h and
-/// their products. (An array of Eigen's: plain members, added one by one, lose terms in GCC 12 with
-/// -O3.)
+/// Moments of columns, from which a plane h = a + p i + q j is fitted: sums of 1, i, j, h and their
+/// products over the columns. (This is an Eigen array because GCC 12 with -O3 loses terms of plain
+/// members that are added one by one.)
 using Moments = Eigen::Array<int, 10, 1>;
 enum Moment { kCount, kI, kJ, kH, kII, kJJ, kHH, kIJ, kIH, kJH };
 
@@ -89,10 +92,10 @@ Moments momentsOf(int i, int j, int h) {
   return moments;
 }
 
-/// Moments of the columns before, at and after the middle, along i and j.
+/// Moments of nine blocks of columns: before, at and after the middle, along i and along j.
 using Blocks = std::array<std::array<Moments, 3>, 3>;
 
-/// What the windows around a voxel hold.
+/// Moments of the columns in the windows around a voxel.
 struct Windows {
   Windows() {
     for (auto& row : narrow) row.fill(Moments::Zero());
@@ -118,10 +121,10 @@ Windows windowsOf(const Heights& heights) {
 
 struct Plane {
   std::array<double, 2> slope{};   // along i and j
-  std::array<double, 2> weight{};  // of each; 0: columns that do not span a plane
+  std::array<double, 2> weight{};  // of the slopes; 0 if the columns do not span a plane
 };
 
-/// Least squares.
+/// Plane through columns, by least squares.
 Plane planeThrough(const Moments& m) {
   constexpr int kLeastColumns = 6;
   Plane plane;
@@ -136,13 +139,14 @@ Plane planeThrough(const Moments& m) {
   const double ih = centred(kIH, kI, kH);
   const double jh = centred(kJH, kJ, kH);
   const double determinant = ii * jj - ij * ij;
-  constexpr double kLeastSpread = 1e-6;  // of integers: it is 0 or larger by far
+  constexpr double kLeastSpread = 1e-6;  // from integers: it is 0 or much larger
   if (determinant < kLeastSpread) return plane;
   plane.slope = {(ih * jj - jh * ij) / determinant, (jh * ii - ih * ij) / determinant};
   const double hh = centred(kHH, kH, kH);
   const double misfit = (hh - plane.slope[0] * ih - plane.slope[1] * jh) / n;
-  // Rounding alone leaves a misfit of about 1/12, half of it or less where it is lucky, and slopes
-  // a variance by their spread; an edge of 45 degrees leaves three times the misfit.
+  // Rounding alone causes a misfit of about 1/12, by chance half of it or less; the variance of a
+  // slope depends on the spread of the columns. An edge of 45 degrees causes three times the
+  // misfit.
   constexpr double kLuck = 0.04;
   constexpr double kSoftness = 0.1;
   const double small = 1 / (1 + std::max(0.0, misfit - kLuck) / kSoftness);
@@ -151,7 +155,7 @@ Plane planeThrough(const Moments& m) {
   return plane;
 }
 
-/// Moments of the blocks [i0, i1] x [j0, j1].
+/// Sum of the moments of the blocks [i0, i1] x [j0, j1].
 Moments momentsOver(const Blocks& blocks, std::size_t i0, std::size_t i1, std::size_t j0,
                     std::size_t j1) {
   Moments all = Moments::Zero();
@@ -160,13 +164,14 @@ Moments momentsOver(const Blocks& blocks, std::size_t i0, std::size_t i1, std::s
   return all;
 }
 
-/// A one-sided difference bends with a curved surface: it has to fit better before it counts.
+/// Weight of differences that are not one-sided. One-sided ones are biased on a curved surface, so
+/// they must fit better to count as much.
 constexpr double kTrustInCentral = 4;
 
 struct Differences {
   Plane backward, central, forward, wide;
 
-  /// Their slopes as one.
+  /// Weighted mean of their slopes.
   double mixed(std::size_t axis) const {
     double sum = 0;
     double weights = 0;
@@ -182,11 +187,11 @@ struct Differences {
   }
 };
 
-/// A normal, and what speaks for the plane it was found over.
+/// A normal, and the quality of the plane over which it was estimated.
 struct Estimate {
   Vec3d normal;
-  int columns;   // of the narrow window
-  double score;  // of all columns, seen as the surface faces the plane
+  int columns;   // number of columns in the narrow window
+  double score;  // columns times the cosine between the normal and the plane's normal
 };
 
 Estimate estimateIn(Voxels& voxels, const HeightFrame& frame) {
@@ -226,12 +231,13 @@ Vec3d CongradientNormals::at(const Coord& voxel, const Vec3d& face, const Vec3d&
   Known& known = known_[voxel.hash<kKnownLog2>()];
   if (known.side != side || known.voxel != voxel)
     known = {voxel, side, estimate(voxel, start, face[start] < 0 ? -1 : 1)};
-  // Where the surface turns from sight, the viewer alone does not tell its sides apart.
+  // At the silhouette, the direction to the viewer alone does not decide which side is outside.
   return known.normal.dot(towardViewer + face) < 0 ? Vec3d(-known.normal) : known.normal;
 }
 
 Vec3d CongradientNormals::estimate(const Coord& voxel, int start, int sign) {
-  // A plane that the surface leans over, or that it breaks off from, is left for a better one.
+  // Another plane is tried if the surface faces another axis much more, or if too few columns have
+  // a height.
   constexpr int kEnoughColumns = 40;
   constexpr double kLeaning = 1.15;
   Vec3d first = Vec3d::Zero();

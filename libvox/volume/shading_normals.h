@@ -7,33 +7,34 @@
 
 namespace vox {
 
-/// Congradient shading: normals from nothing but voxels (paper section 9).
+/// Congradient shading: normals from voxels alone (paper section 9).
 ///
-/// The surface around a voxel is a height field over the plane that it faces most: in each column
-/// the outermost voxel of the sheet, which ends where the height leaps. Along both axes of the
-/// plane it is differenced forward, backward and across three columns to each side, and across six,
-/// as the slope of the plane that fits the columns there best; the four are weighted by how small
-/// their misfit is. So a smooth surface is averaged over up to 13 x 13 columns, and an edge stays
-/// sharp, since a difference that does not cross it fits better.
+/// The surface around a voxel is taken as a height field over the axis plane that it faces most.
+/// The height in a column is that of the outermost voxel of the sheet; the sheet ends where heights
+/// jump. Along both axes of the plane there are four slopes: backward, forward and central over
+/// three columns to each side, and central over six. Each is the slope of the plane that fits its
+/// columns best. Their mean is weighted by how well these planes fit. So a smooth surface is
+/// averaged over up to 13 x 13 columns, and an edge stays sharp, because differences that do not
+/// cross it fit better.
 ///
-/// Not thread-safe; make one per task.
-/// The idea of three differences is that of Cohen, Kaufman, Bakalash & Bergman 1990; height field,
-/// fit and weights are ours. libvox/README.md says what they gain.
+/// Not thread-safe: one object per task.
+/// Source: the three differences are those of Cohen, Kaufman, Bakalash & Bergman 1990. Height
+/// field, fit and weights are our own; libvox/README.md has measurements.
 class CongradientNormals {
  public:
-  /// @param voxels  must outlive this
+  /// @param voxels  must outlive this object
   explicit CongradientNormals(const openvdb::MaskTree& voxels);
 
   /// Unit normal of the surface at an active voxel, in index space.
-  /// @param face          outward unit normal of the side of the voxel that is seen
-  /// @param towardViewer  where from, a unit vector: says which side of the surface is outside
+  /// @param face          outward unit normal of the visible side of the voxel
+  /// @param towardViewer  unit vector to the viewer; decides which side of the surface is outside
   Vec3d at(const openvdb::Coord& voxel, const Vec3d& face, const Vec3d& towardViewer);
 
  private:
-  /// What was asked for last among the voxels that share a slot: neighbouring rays hit the same.
+  /// The last result of a slot of the cache. (Neighbouring rays often hit the same voxel.)
   struct Known {
     openvdb::Coord voxel;
-    int side = -1;  // of the voxel, where the surface was begun from
+    int side = -1;  // visible side of the voxel, from which the estimate started
     Vec3d normal;
   };
 

@@ -12,10 +12,10 @@
 namespace vox {
 namespace {
 
-/// Of the longest side, where no scale is given.
+/// Default scale, in longest sides of the object.
 constexpr double kPartOfSide = 0.125;
 
-/// Lowest and highest corner of a box along an axis.
+/// Lowest and highest position of a box along an axis.
 std::pair<double, double> extentAlong(const Box& box, const Vec3d& axis) {
   const Vec3d toLow = box.low.cwiseProduct(axis);
   const Vec3d toHigh = box.high.cwiseProduct(axis);

@@ -6,18 +6,18 @@
 
 namespace vox {
 
-/// A solid texture, ready to be looked at.
+/// A solid texture that can be evaluated.
 ///
 /// checker: cells; stripes: bands across the axis; rings: wood around the axis; marble: veins
 /// across the axis; noise: blobs; gradient: from one end to the other along the axis; brick:
-/// courses along z. Noise displaces stripes, rings and veins. The same bits on every processor that
-/// keeps to IEEE 754.
+/// courses stacked along z, mortar in the last colour. Noise displaces stripes, rings and veins.
+/// The same bits on every processor that conforms to IEEE 754.
 class SolidTexture {
  public:
-  /// @param extent  of the object in the texture's space, for what the texture does not say
+  /// @param extent  box of the object in the texture's space, for the defaults of `spec`
   SolidTexture(const TextureSpec& spec, const Box& extent);
 
-  /// Linear colour at a place in the texture's space. Thread-safe.
+  /// Linear colour at a position in the texture's space. Thread-safe.
   Vec3d colorAt(const Vec3d& place) const;
 
  private:

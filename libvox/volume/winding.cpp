@@ -1,4 +1,4 @@
-// Crossings of rays along +x, all voxels of a column at once.
+// Winding numbers by crossings of rays along +x, for all voxels of a column at once.
 
 #include "libvox/volume/winding.h"
 
@@ -18,7 +18,7 @@ namespace {
 using openvdb::Coord;
 constexpr std::size_t kFacesPerTask = 256;
 
-/// Voxels by column, and along it.
+/// Voxels sorted by columns along x.
 class Columns {
  public:
   explicit Columns(std::span<const Coord> voxels) : voxels_(voxels), order_(voxels.size()) {
@@ -47,15 +47,16 @@ class Columns {
   std::vector<std::size_t> order_;
 };
 
-/// Whether, seen along x, the half line from p in +z crosses edge ab, whose interval of y is half
-/// open. The same answer for ab and ba, so nothing slips between neighbouring triangles.
+/// Whether, in the projection along x, the ray from p in +z crosses edge ab. The interval of y of
+/// the edge is half open. ab and ba give the same answer, so no ray slips between neighbouring
+/// triangles.
 bool crossesAbove(const Vec3d* a, const Vec3d* b, const Vec3d& p) {
   if ((a->y() > p.y()) == (b->y() > p.y())) return false;
   if (a->y() > b->y()) std::swap(a, b);
   return (b->y() - a->y()) * (p.z() - a->z()) - (p.y() - a->y()) * (b->z() - a->z()) < 0;
 }
 
-/// What the triangle adds to the winding number of p.
+/// Contribution of a triangle to the winding number of p: -1, 0 or 1.
 int crossing(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
   if (!(crossesAbove(&a, &b, p) ^ crossesAbove(&b, &c, p) ^ crossesAbove(&c, &a, p))) return 0;
   const Vec3d ab = b - a;

@@ -8,13 +8,13 @@
 
 namespace vox {
 
-/// How often closed surfaces wind around the centres of some voxels: +1 inside one that faces
-/// outward, -1 inside one that faces inward.
+/// Winding numbers of closed surfaces around the centres of some voxels: +1 for each surface that
+/// faces outward and has the centre inside, -1 for each one that faces inward.
 ///
-/// @param surfaces  triangles and quads (two triangles, along 0-2), in index space
-/// Exact where the centre is not on the surface, up to rounding. Parallel; the result does not
-/// depend on the number of threads. Cost O(T log Q + A) for T triangles that cover A columns of
-/// voxels seen along x.
+/// @param surfaces  triangles and quads (cut in two along 0-2), in index space
+///
+/// Exact unless the centre is on the surface up to rounding. Parallel; result independent of thread
+/// count. Cost O(T log Q + A) for Q voxels and T triangles that cover A columns of voxels along x.
 std::vector<int> windingNumbers(const PolygonMesh& surfaces,
                                 std::span<const openvdb::Coord> voxels);
 

@@ -9,11 +9,12 @@
 
 namespace vox {
 
-/// A triangle whose normal is a blend of those of its corners.
+/// A triangle with a normal at each corner, blended linearly in between.
 class BlendedTriangle {
  public:
   BlendedTriangle() = default;
-  /// @param flat  the normal where the corners have none to speak of
+  /// @param normals  unit, or 0: the corner then gets `flat`
+  /// @param flat     normal of the triangle; also used where the blended normals cancel
   BlendedTriangle(const std::array<Vec3d, 3>& corners, std::array<Vec3d, 3> normals,
                   const Vec3d& flat)
       : a_(corners[0]),
@@ -30,12 +31,12 @@ class BlendedTriangle {
     toC_ = normals[2] - normals[0];
   }
 
-  /// Unit normal at the point nearest to p.
+  /// Unit normal at the point of the triangle nearest to p.
   Vec3d normalNear(const Vec3d& p) const {
     const auto [b, c] = nearest(p);
     const Vec3d normal = normal_ + b * toB_ + c * toC_;
     const double square = normal.squaredNorm();
-    constexpr double kLeast = 1e-6;  // of normals that point away from each other
+    constexpr double kLeast = 1e-6;  // below it, normals cancel each other
     return square > kLeast * kLeast ? Vec3d(normal / std::sqrt(square)) : flat_;
   }
 
@@ -44,8 +45,8 @@ class BlendedTriangle {
     double b, c;
   };
 
-  /// Weights of two corners in the nearest point. Source: Ericson 2005, "Real-Time Collision
-  /// Detection", section 5.1.5; sides without length are never the nearest.
+  /// Weights of corners b and c in the point of the triangle nearest to p. Sides without length are
+  /// never the nearest. Source: Ericson 2005, "Real-Time Collision Detection", section 5.1.5.
   Weights nearest(const Vec3d& p) const {
     const double ab = ab_.dot(p - a_);
     const double ac = ac_.dot(p - a_);

@@ -7,18 +7,20 @@
 
 namespace vox::detail {
 
-/// Collects blocks and hands them on many at a time.
+/// Collects blocks and passes them on in groups.
 class BlockSink {
  public:
   BlockSink(EmitBlocks emit, void* visit) : emit_(emit), visit_(visit) {}
 
-  /// A place for `count` blocks, of which `take` keeps some.
+  /// Room to write up to `count` blocks (at most 512). take() then says how many to keep.
   VoxelBlock* room(std::size_t count) {
     if (filled_ + count > blocks_.size()) flush();
     return blocks_.data() + filled_;
   }
+  /// Keeps the first `count` blocks that were written to room().
   void take(std::size_t count) { filled_ += count; }
 
+  /// Passes on all blocks.
   void flush() {
     emit_(visit_, {blocks_.data(), filled_});
     filled_ = 0;

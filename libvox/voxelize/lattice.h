@@ -9,7 +9,7 @@
 
 namespace vox::detail {
 
-// The integers of the scan: points on its lattice, intervals of voxels, quotients step by step.
+// Integer arithmetic of the scan: points on its lattice, intervals of voxels, stepped quotients.
 
 __extension__ using Int128 = __int128;
 
@@ -31,9 +31,9 @@ Int magnitude(Int x) {
   return x < 0 ? -x : x;
 }
 
-/// Voxels [lo, hi] in a row; none if lo > hi.
+/// Voxels [lo, hi] in a row; empty if lo > hi.
 struct Interval {
-  std::int32_t lo, hi;  // left as they are in tables, of which triangles mostly use a small part
+  std::int32_t lo, hi;  // not initialized: most triangles use a small part of their tables
 
   bool contains(std::int32_t x) const { return (lo <= x) & (x <= hi); }
   bool empty() const { return lo > hi; }
@@ -46,13 +46,16 @@ struct Interval {
 };
 inline constexpr Interval kNothing = {1, 0};
 
-/// Centres whose segment of half width pad / 2 meets [min, max] (lattice steps).
+/// Voxels whose centre is within half width pad / 2 of [min, max].
+/// @param min, max  in lattice steps
+/// @param pad       in voxels
 inline Interval voxelsAcross(std::int64_t min, std::int64_t max, int pad) {
   return {static_cast<std::int32_t>(-floorDiv(pad * kHalf - min, kUnit)),
           static_cast<std::int32_t>(floorDiv(max + pad * kHalf, kUnit))};
 }
 
-/// floor((start + i step) / divisor) for i = 0, 1, 2, ...
+/// floor((start + i step) / divisor) for i = 0, 1, 2, ...: `floor` is the current value, `rest` the
+/// remainder.
 template <class Int>
 struct FloorLine {
   FloorLine(Int start, Int step, Int positive)
@@ -64,7 +67,7 @@ struct FloorLine {
 
   void next() {
     rest += stepRest;
-    const Int carry = -Int{rest >= divisor};  // all ones or none: a branch would be mispredicted
+    const Int carry = -Int{rest >= divisor};  // all bits or none; a branch would be mispredicted
     rest -= divisor & carry;
     floor += stepFloor - carry;
   }

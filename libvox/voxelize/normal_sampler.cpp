@@ -1,4 +1,4 @@
-// Patches to tiles of normals.
+// Splits patches into tiles for the vector unit.
 
 #include "libvox/voxelize/normal_sampler.h"
 

@@ -5,18 +5,18 @@
 
 namespace vox {
 
-/// Gives voxels the limit normals at the vertices that lie in them. One per thread; the sums do not
-/// depend on who gets which patch. Source: paper section 8.
+/// Adds the limit normals at vertices to the voxels that hold the vertices. One object per thread;
+/// the sums do not depend on the order of patches or on threads. Source: paper section 8.
 class NormalSampler {
  public:
   explicit NormalSampler(VoxelMeans& means) : brick_(means) {}
 
-  /// What a regular vertex has become: 2^rows x 2^columns vertices.
-  /// @param patch  complete
+  /// Adds the normals at the 2^rows x 2^columns descendants of a regular vertex.
+  /// @param patch  with all four faces
   void patch(const Patch& patch, int rows, int columns);
 
-  /// A single vertex.
-  /// @param normal  of length 1, or 0: none
+  /// Adds the normal at a single vertex.
+  /// @param normal  of length 1; ignored if 0
   void point(const Vec3d& position, const Vec3d& normal);
 
  private:

@@ -1,4 +1,4 @@
-// Normals over a tile, several columns at a time.
+// Normals of a tile, several columns at a time.
 
 // Highway compiles this file once per instruction set, between HWY_BEFORE_ and HWY_AFTER_NAMESPACE.
 #undef HWY_TARGET_INCLUDE
@@ -21,7 +21,8 @@ namespace {
 constexpr std::size_t kMostColumns = std::size_t{1} << kMostNormalLevels;
 static_assert(1 << (2 * kMostNormalLevels) <= VoxelMeans::kMostBrickSamples);
 
-/// Weights along v: of the points before and behind for vertices, and for the limit.
+/// Weights along v of the previous and the next control point: for vertices (minus, plus) and for
+/// limit points (limitMinus, limitPlus, at parameter t).
 struct ColumnWeights {
   using Column = std::array<float, kMostColumns>;
   alignas(64) Column minus{};
@@ -50,7 +51,8 @@ std::array<ColumnWeights, kMostNormalLevels + 1> makeColumnWeights() {
 }
 const std::array<ColumnWeights, kMostNormalLevels + 1> kColumnWeights = makeColumnWeights();
 
-/// A quadratic along v: its middle control, and what the ones before and behind add to it.
+/// A quadratic along v: the middle control value, and the differences of the previous and the next
+/// one from it.
 struct QuadraticRow {
   float zero, minus, plus;
   QuadraticRow(double a, double b, double c)
@@ -59,7 +61,8 @@ struct QuadraticRow {
         plus(static_cast<float>(c - b)) {}
 };
 
-/// One coordinate of a row: voxel positions rounded with 1/2, and the derivatives of the limit.
+/// One coordinate of a row: positions plus 1/2, for rounding by floor, and derivatives of the limit
+/// surface.
 struct NormalRow {
   QuadraticRow position;
   QuadraticRow alongU;
@@ -106,7 +109,7 @@ HWY_INLINE V quadratic(const QuadraticRow& row, V minus, V plus) {
                                                hn::Mul(plus, hn::Set(d, row.plus))));
 }
 
-/// Where a coordinate falls; 1/2 has been added to it.
+/// The voxels of one coordinate; `row` has 1/2 added.
 HWY_INLINE VI voxelAt(const QuadraticRow& row, V minus, V plus) {
   return hn::ConvertTo(DI(), hn::Floor(quadratic(row, minus, plus)));
 }

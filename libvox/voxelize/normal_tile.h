@@ -7,18 +7,21 @@
 
 namespace vox {
 
-/// Least and largest number of columns of a tile of normals, as logarithms; rows have no least.
+/// Binary logarithms of the least and the largest number of columns of a tile of normals. A tile
+/// may have any number of rows up to the largest number of columns.
 inline constexpr int kLeastNormalLevels = 3;
 inline constexpr int kMostNormalLevels = 6;
 
-/// Upper bound on the distance of a vertex, as it is computed here, from the true one, in voxels:
-/// single precision, at coordinates below 64, in seven steps.
+/// Upper bound of the error of a vertex, in voxels: it is computed in single precision, from
+/// coordinates below 64, by seven operations.
 inline constexpr double kNormalTileError = 5e-5;
 
-/// Adds the unit limit normals at the 2^rows x 2^columns vertices of a patch, each at the voxel
-/// that holds its vertex, to the sums of a MeanBrick, and marks these voxels. A direction is off by
-/// 1e-5 at most where the patch is not folded. The same bits on every processor.
-/// @param patch  complete; its vertices fit into a MarkBrick
+/// Adds the unit limit normals at the 2^rows x 2^columns vertices of a patch to the sums of a
+/// MeanBrick, each to the voxel that holds the vertex, and marks these voxels. The direction of a
+/// normal is off by at most 1e-5, unless the patch is folded. The same bits on every processor.
+/// @param patch  with all four faces; its vertices must fit into a MarkBrick
+/// @param marks  of the MeanBrick
+/// @param sums   of the MeanBrick
 void addNormalTile(const Patch& patch, int rows, int columns, std::uint8_t* marks,
                    VoxelMeans::BrickSum* sums);
 

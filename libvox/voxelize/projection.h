@@ -11,9 +11,10 @@
 
 namespace vox::detail {
 
-/// The triangle seen along one axis. Centre (a, b) with a box of widths padA, padB passes edge i
-/// iff 2 A a + 2 B b + padA |A| + padB |B| >= level. In a projection that is a segment, the edges
-/// point both ways and bound it on both sides.
+/// The projection of a triangle along one axis, with coordinates a and b. Edge i does not separate
+/// the box of widths padA, padB around centre (a, b) from the triangle iff
+/// 2 A a + 2 B b + padA |A| + padB |B| >= level. If the projection is a segment, its edges point
+/// both ways and bound it on both sides.
 template <class Int>
 class Projection {
  public:
@@ -36,7 +37,8 @@ class Projection {
     rangeB_ = {lowB, highB};
   }
 
-  /// For rows b = firstB, firstB + 1, ...: the a whose boxes are not separated in this projection.
+  /// Sets `rows`, for b = firstB, firstB + 1, ..., to the voxels a whose boxes are not separated
+  /// from the triangle in this projection.
   void slice(int padA, int padB, std::int32_t firstB, std::span<Interval> rows) const;
 
  private:
@@ -52,7 +54,7 @@ void Projection<Int>::slice(int padA, int padB, std::int32_t firstB,
                             std::span<Interval> rows) const {
   const Interval acrossA = voxelsAcross(rangeA_.first, rangeA_.second, padA);
   Interval acrossB = voxelsAcross(rangeB_.first, rangeB_.second, padB);
-  for (const Edge& edge : edges_) {  // an edge along a bounds rows
+  for (const Edge& edge : edges_) {  // an edge parallel to a bounds the rows
     if (edge.normalA != 0 || edge.normalB == 0) continue;
     const Int reach = edge.level - padB * magnitude(edge.normalB);
     const Int bound = floorDiv<Int>(-reach, 2 * magnitude(edge.normalB));

@@ -1,4 +1,4 @@
-// Vertices along a row, several at a time.
+// Vertices of a row, several at a time.
 
 // Highway compiles this file once per instruction set, between HWY_BEFORE_ and HWY_AFTER_NAMESPACE.
 #undef HWY_TARGET_INCLUDE

@@ -1,5 +1,5 @@
-// Triangles to voxels: small ones a chunk of blocks at a time through the vector kernel, others one
-// by one.
+// Scan of triangles: small ones by the vector kernel, a chunk of blocks at a time; others one by
+// one.
 
 #include "libvox/voxelize/scan.h"
 
@@ -16,16 +16,18 @@
 namespace vox::detail {
 namespace {
 
-/// Feeds the vector kernel, a chunk of blocks at a time.
+/// Collects blocks of triangles and scans them by the vector kernel, a chunk at a time. Triangles
+/// that turn out to be too large for the kernel are scanned by scanLarge.
 class BlockQueue {
  public:
   BlockQueue(std::span<const Vec3d> points, std::span<const std::array<Index, 3>> triangles,
              Separation separation, BlockSink& sink)
       : points_(points), triangles_(triangles), separation_(separation), sink_(sink) {}
 
-  /// Adds the first block of a triangle; others follow from there.
+  /// Adds the first block of a triangle. Its other blocks are added when the first one is scanned.
   void add(Index triangle) { add({triangle, {0, 0, 0}}); }
 
+  /// Scans all blocks that are left.
   void flush() {
     while (count_ > 0) scanChunk();
   }
@@ -33,7 +35,7 @@ class BlockQueue {
  private:
   struct Block {
     Index triangle;
-    std::array<int, 3> offset;  ///< voxels
+    std::array<int, 3> offset;  ///< from the first block, in voxels
     bool first() const { return offset == std::array{0, 0, 0}; }
   };
 
@@ -93,16 +95,17 @@ void BlockQueue::scanChunk() {
                                           points_[triangle[2]]};
     scanLarge(corners, blocks_[i].triangle, separation_, sink_);
   }
-  for (const Block& block : others) add(block);  // these have no others
+  for (const Block& block : others) add(block);  // not first blocks: they add no others
 }
 
-/// The blocks of a triangle but the first, without those that its plane clearly misses.
+/// Appends all blocks of a triangle except the first, and except those that its plane clearly
+/// misses.
 void BlockQueue::addOthers(std::size_t lane, std::vector<Block>& others) const {
   const auto& triangle = triangles_[blocks_[lane].triangle];
   const Vec3d& corner = points_[triangle[0]];
   const Vec3d normal =
       (points_[triangle[1]] - corner).cross(points_[triangle[2]] - points_[triangle[0]]);
-  // Half a block, and more than snapping and rounding move the plane.
+  // Half a block, plus more than snapping and rounding can move the plane.
   const double reach = (0.5 * kBlockSide + 1e-3) * normal.lpNorm<1>() + 1e-2;
   const auto blocksAlong = [&](int axis) {
     return static_cast<int>(scan_.across[axis][lane]) / kBlockSide + 1;

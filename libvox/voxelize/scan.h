@@ -11,8 +11,8 @@
 
 namespace vox {
 
-/// Triangles are scanned with their corners at the nearest points of the lattice of this spacing
-/// (unit: voxels), halves to even.
+/// Spacing of the lattice of the scan, in voxels. Corners of triangles are moved to the nearest
+/// lattice point, halves to even.
 inline constexpr double kScanLattice = 1.0 / 65536;
 
 /// Active voxels of one triangle within a block of 4 x 4 x 4: bit 16 i + 4 j + k of `voxels` stands
@@ -86,19 +86,20 @@ void scanTriangles(std::span<const Vec3d> points, std::span<const std::array<Ind
   detail::scanTriangles(points, triangles, separation, &detail::emitTo<Plain>, &visit);
 }
 
-/// The same for one triangle, number 0.
+/// Scans one triangle, which has number 0; as scanTriangles.
 template <class Visit>
 void scanTriangle(std::span<const Vec3d, 3> corners, Separation separation, Visit&& visit) {
   using Plain = std::remove_reference_t<Visit>;
   detail::scanTriangle(corners, separation, &detail::emitTo<Plain>, &visit);
 }
 
-/// In how many parts a large triangle can be scanned, by as many threads: of 256 rows of voxels
-/// each.
+/// Number of parts of a triangle that can be scanned separately, by different threads. A part has
+/// 256 rows of voxels.
 /// @throws LimitError  as scanTriangles
 std::int64_t scanPartCount(std::span<const Vec3d, 3> corners);
 
-/// One of these parts: together they are the voxels of scanTriangle, each once.
+/// Scans one part of a triangle. All parts together have the voxels of scanTriangle, each once.
+/// @param part  0 .. scanPartCount(corners) - 1
 template <class Visit>
 void scanTrianglePart(std::span<const Vec3d, 3> corners, std::int64_t part, Separation separation,
                       Visit&& visit) {

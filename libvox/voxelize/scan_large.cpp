@@ -1,12 +1,12 @@
 // Triangle scan conversion (Cohen, Kaufman & Wang 1994, section 6), exact in integers.
 //
-// A triangle meets a box iff no axis separates them; the axes to try are those of the box, the
-// normal of the triangle, and the cross products of box axes and edges, i.e. the edge normals of
-// the three axis-aligned projections. This holds for degenerate triangles too, and for boxes that
-// are segments along an axis. For the box of a voxel each of these tests is a linear inequality in
-// its integer centre, so every one bounds an interval of voxels along a row or column. The
-// intervals of the projections depend on one coordinate only and are tabulated; what is left per
-// column is the interval of the plane.
+// A triangle meets a box iff no axis separates them. The axes to try are those of the box, the
+// normal of the triangle, and the cross products of box axes and edges, which are the edge normals
+// of the three axis-aligned projections. This holds also for degenerate triangles, and for boxes
+// that are segments along an axis. For the box of a voxel each test is a linear inequality in its
+// integer centre, so it bounds an interval of voxels along a row or column. The intervals of the
+// projections depend on one coordinate only and are tabulated. For each column, only the interval
+// of the plane remains to be computed.
 
 #include "libvox/voxelize/scan_large.h"
 
@@ -23,14 +23,14 @@
 namespace vox::detail {
 namespace {
 
-/// Up to this extent, in lattice steps, 64 bits hold every term: with n <= 2 extent^2 the normal
-/// and c <= extent / kUnit + 2 a centre, 2 n.c + n.(1, 1, 1) < 2^63.
+/// Largest extent, in lattice steps, for which 64 bits hold every term: the normal is n <=
+/// 2 extent^2, a centre c <= extent / kUnit + 2, and 2 n.c + n.(1, 1, 1) < 2^63.
 constexpr std::int64_t kExtent64 = std::int64_t{512} * kUnit;
 /// The same for 128 bits.
 constexpr std::int64_t kExtent128 = (std::int64_t{1} << 30) * kUnit;
 constexpr double kLargestCoordinate = 1 << 30;
 
-/// Columns are scanned in tiles of this side, whose tables fit the stack whatever the triangle.
+/// Columns are scanned in tiles of this side, so that the tables of any triangle fit on the stack.
 constexpr int kTile = 256;
 
 /// Corners on the lattice, relative to the voxel that holds the first one.
@@ -71,7 +71,7 @@ int largestAxis(const std::array<Int, 3>& v) {
   return largest;
 }
 
-/// Normal of a plane through a triangle; through a segment or point, of one that it faces. Not 0.
+/// Normal, not 0, of the plane of a triangle. For a segment or a point: of some plane through it.
 template <class Int>
 std::array<Int, 3> planeNormal(const std::array<Lattice, 3>& corners) {
   std::array<Int, 3> normal;
@@ -86,7 +86,7 @@ std::array<Int, 3> planeNormal(const std::array<Lattice, 3>& corners) {
   }
   if (normal != std::array<Int, 3>{}) return normal;
 
-  // A segment or point: the normal that lies in the plane of the longest and the shortest axis.
+  // A segment or point: a normal in the plane of the axes along which it is longest and shortest.
   std::array<Int, 3> along = edges[0];
   for (const auto& edge : edges)
     if (magnitude(edge[largestAxis(edge)]) > magnitude(along[largestAxis(along)])) along = edge;
@@ -99,8 +99,8 @@ std::array<Int, 3> planeNormal(const std::array<Lattice, 3>& corners) {
   return normal;
 }
 
-/// Writes runs of voxels along axis w, of columns in one row along u, as blocks. A local copy keeps
-/// its members in registers: no block can overlap it.
+/// Writes blocks with runs of voxels along axis w, one for each column of a row along u. Use a
+/// local copy: no block can overlap it, so the compiler keeps its members in registers.
 class RowWriter {
  public:
   RowWriter(const std::array<int, 3>& axes, const std::array<std::int32_t, 3>& origin,
@@ -122,14 +122,14 @@ class RowWriter {
     return writer;
   }
 
-  /// Voxel (u, v, w).
+  /// Writes a block with voxel (u, v, w).
   void one(VoxelBlock& block, std::int32_t u, std::int32_t w) const {
     block = pattern_;
     block.origin[u_] = originU_ + u;
     block.origin[w_] = originW_ + w;
   }
 
-  /// `count` voxels (0 to 4) from (u, v, w) on.
+  /// Writes a block with `count` voxels (0 to 4) from (u, v, w) on.
   void run(VoxelBlock& block, std::int32_t u, std::int32_t w, int count) const {
     one(block, u, w);
     block.voxels = runs_[count];
@@ -142,8 +142,9 @@ class RowWriter {
   std::array<std::uint64_t, 5> runs_{};
 };
 
-/// One triangle, seen along axis w, which it faces most: within a column along w the plane rises by
-/// two voxels at most, so that a column has at most four active voxels. Rows run along u.
+/// The scan of one triangle. Axis w is the one along which its normal is largest; columns run along
+/// w, rows along u. Within a column the plane rises by two voxels at most, so that a column has at
+/// most four active voxels.
 template <class Int>
 class TriangleScan {
  public:
@@ -153,7 +154,7 @@ class TriangleScan {
     for (std::int64_t part = 0; part < partCount(); ++part) scanPart(part, separation);
   }
 
-  /// Parts are tiles of rows.
+  /// Number of parts; a part is a tile of rows.
   std::int64_t partCount() const { return (std::int64_t{rows_.hi} - rows_.lo + kTile) / kTile; }
   void scanPart(std::int64_t part, Separation separation) {
     const auto v = static_cast<std::int32_t>(rows_.lo + part * kTile);
@@ -167,7 +168,7 @@ class TriangleScan {
  private:
   using Table = std::array<Interval, kTile>;
 
-  /// Tables of the 6-target. Pads along the axes in the order of the names.
+  /// Tables of the projections for separation 6. A name gives the two axes and the pads along them.
   struct Tables6 {
     Table uv00, uv10, uv01, wv00, wu00;
   };
@@ -179,7 +180,7 @@ class TriangleScan {
   bool active6(const Tables6& tables, std::size_t column, std::size_t row, std::int32_t u,
                std::int32_t w, Int height) const;
 
-  /// Calls tile(columns) for the tiles along u that cover some rows.
+  /// Calls tile(columns) for the tiles along u that cover all columns of some rows.
   template <class Tile>
   static void forTiles(std::span<const Interval> rows, Tile&& tile) {
     Interval all = {std::numeric_limits<std::int32_t>::max(),
@@ -201,8 +202,8 @@ class TriangleScan {
   const Projection<Int> uv_, wv_, wu_;
   const RowWriter writer_;
   Interval rows_;
-  Int normalU_, normalV_, normalW_;  ///< of the plane; W > 0 and the largest
-  Int sizeU_, sizeV_;                ///< magnitudes
+  Int normalU_, normalV_, normalW_;  ///< normal of the plane; W is positive and the largest
+  Int sizeU_, sizeV_;                ///< magnitudes of normalU_ and normalV_
   /// A box of centre c and half widths t meets the plane iff ceil - t.|n| <= 2 n.c <= floor +
   /// t.|n|.
   Int planeFloor_, planeCeil_;
@@ -242,7 +243,8 @@ void TriangleScan<Int>::scanRows26(std::int32_t firstV, std::size_t count) {
   uv_.slice(1, 1, firstV, std::span(uv).first(count));
   wv_.slice(1, 1, firstV, std::span(wv).first(count));
 
-  // The w of the plane are floor(lowest / 2 n_w), ..., floor((lowest + spread) / 2 n_w).
+  // In a column, the plane meets the voxels w from floor(lowest / 2 n_w) to floor((lowest + spread)
+  // / 2 n_w).
   const Int size = sizeU_ + sizeV_ + normalW_;
   const Int lowest = planeCeil_ - size + 2 * normalW_ - 1;
   const Int spread = planeFloor_ + size - lowest;
@@ -289,9 +291,9 @@ void TriangleScan<Int>::scanRows6(std::int32_t firstV, std::size_t count) {
   });
 }
 
-/// Columns whose centre is in the triangle have the voxels next to the plane, mostly one. Around
-/// them, the segments along u and v may meet the triangle, at the same voxels: the plane rises by
-/// less than the half voxel along them.
+/// In a column whose centre line meets the triangle, the voxels nearest to the plane are active:
+/// mostly one. In columns around it, only the same voxels can be active, if their segments along u
+/// or v meet the triangle: along half a voxel the plane rises by at most half a voxel.
 template <class Int>
 void TriangleScan<Int>::scanRow6(const Tables6& tables, std::int32_t firstU, std::int32_t firstV,
                                  std::size_t row, Interval columns) {
@@ -302,7 +304,7 @@ void TriangleScan<Int>::scanRow6(const Tables6& tables, std::int32_t firstU, std
   VoxelBlock* const blocks = sink_.room(2 * kTile);
   VoxelBlock* block = blocks;
 
-  // A plane halfway between two centres has both.
+  // If the plane is halfway between two centres, both voxels are active.
   const auto tied = [&] { return !open && line.rest == line.divisor - 1; };
   const auto tryUntil = [&](std::int32_t& u, std::int32_t end) {
     for (; u < end; ++u, line.next()) {
@@ -332,11 +334,14 @@ void TriangleScan<Int>::scanRow6(const Tables6& tables, std::int32_t firstU, std
   sink_.take(static_cast<std::size_t>(block - blocks));
 }
 
-/// For voxel (u, v, w) whose 2 n.c is planeCeil + height and whose segment along w misses. These
-/// inequalities imply the others: where n has a component along the segment, its line meets the
-/// triangle (wv00, wu00) at a point that the plane tells to be within the segment; where it has
-/// none, the segment is in the plane, which is one to one with uv. Without branches: which of the
-/// inequalities fails is anyone's guess.
+/// Whether the segment of voxel (u, v, w) along u or v meets the triangle. Precondition: its
+/// segment along w does not.
+///
+/// The inequalities tested here imply the other ones. If n has a component along the segment, the
+/// line of the segment meets the triangle (wv00, wu00), and the test of the plane shows that the
+/// point is within the segment. If n has none, the segment lies in the plane, whose projection on
+/// uv is one to one. There are no branches, because they could not be predicted.
+/// @param height  2 n.c - planeCeil_ for the centre c of the voxel
 template <class Int>
 bool TriangleScan<Int>::active6(const Tables6& tables, std::size_t column, std::size_t row,
                                 std::int32_t u, std::int32_t w, Int height) const {
@@ -350,7 +355,7 @@ bool TriangleScan<Int>::active6(const Tables6& tables, std::size_t column, std::
   return alongU | alongV;
 }
 
-/// Calls work with the scan of a triangle.
+/// Calls work(scan) with the TriangleScan of a triangle, in 64 or 128 bits.
 template <class Work>
 auto withScan(std::span<const Vec3d, 3> corners, Index triangle, BlockSink& sink, Work&& work) {
   const Snapped snapped = snap(corners, triangle);

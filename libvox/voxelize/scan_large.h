@@ -8,14 +8,15 @@
 
 namespace vox::detail {
 
-// Triangles of any size, one at a time, as scan.h says.
+// Scan of triangles of any size, one at a time; results as in scan.h.
 
-/// @param triangle  its number, in blocks and messages
+/// Scans one triangle.
+/// @param triangle  its number in blocks and messages
 /// @throws LimitError  as scanTriangles
 void scanLarge(std::span<const Vec3d, 3> corners, Index triangle, Separation separation,
                BlockSink& sink);
 
-/// Parts of triangle 0, tiles of its rows, and the voxels of one of them.
+/// Number of parts of a triangle, and scan of one part (scanPartCount, scanTrianglePart).
 std::int64_t largePartCount(std::span<const Vec3d, 3> corners);
 void scanLargePart(std::span<const Vec3d, 3> corners, std::int64_t part, Separation separation,
                    BlockSink& sink);

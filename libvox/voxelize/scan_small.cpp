@@ -1,7 +1,7 @@
 // Triangle scan conversion with one block of 4 x 4 x 4 voxels per vector lane.
 //
-// The inequalities are those of scan_large.cpp. Everything is a whole number below 2^53, kept in
-// doubles: exact, and the same on every processor. A triangle is at most 16 voxels across, 2^20
+// The inequalities are those of scan_large.cpp. All numbers are integers below 2^53 in doubles: so
+// they are exact, and the same on every processor. A triangle is at most 16 voxels across, 2^20
 // lattice steps, so normals (areas of projections) stay within 2^40. Corners are within 2^20.1
 // steps of the block, and the largest terms, the two parts of n.corner, within 3 * 2^50.1.
 
@@ -27,14 +27,14 @@ constexpr double kUnit = 65536;  // lattice steps per voxel
 constexpr double kHalf = kUnit / 2;
 constexpr double kNever = -1;  // a threshold below every magnitude
 
-/// What lanes compute that have no triangle of their own: one that faces no axis.
+/// The triangle of lanes that have none of their own. No component of its normal is 0.
 constexpr double kStandIn[3][3] = {{0, 0, 0}, {1, 2, 3}, {3, 1, 2}};
 
 V broadcast(double x) {
   return hn::Set(D(), x);
 }
 
-/// The two axes of projection k, along axis k.
+/// The two axes of projection k, which is along axis k.
 constexpr int axisA(int k) {
   return k == 0 ? 1 : 0;
 }
@@ -42,18 +42,18 @@ constexpr int axisB(int k) {
   return k == 2 ? 1 : 2;
 }
 
-/// Triangles in the frame of their own block: centres at 0, kUnit, 2 kUnit, ...
+/// Triangles relative to their blocks: the centres of voxels are at 0, kUnit, 2 kUnit, ...
 struct Triangles {
   V corners[3][3];  ///< [corner][axis]
   V low[3], high[3];
-  V last[3];  ///< voxels across, less one
+  V last[3];  ///< last voxel of the bounding box, counted in the block
   V normal[3];
   V planeSum;   ///< floor + ceil of n.corner / kHalf
   V planeOpen;  ///< 1 where the two differ, else 0
 };
 
-/// Edges of one projection. Centre (a, b) with widths padA, padB passes edge i iff
-/// 2 A a + 2 B b + padA |A| + padB |B| >= level.
+/// Edges of one projection. Edge i does not separate the box of widths padA, padB around centre
+/// (a, b) from the triangle iff 2 A a + 2 B b + padA |A| + padB |B| >= level.
 struct Projection {
   V normalA[3], normalB[3], level[3];
 };
@@ -61,7 +61,7 @@ struct Projection {
 Projection project(const Triangles& t, int k) {
   const int a = axisA(k);
   const int b = axisB(k);
-  // normal[1] belongs to the projection on (z, x), turned over here.
+  // normal[1] is for the projection on (z, x); here it is on (x, z).
   const V side = hn::And(k == 1 ? hn::Neg(t.normal[1]) : t.normal[k], broadcast(-0.0));
   Projection p;
   for (int i = 0; i < 3; ++i) {
@@ -75,14 +75,15 @@ Projection project(const Triangles& t, int k) {
   return p;
 }
 
-/// For each centre of a projection the threshold, or kNever if its box is separated there. N voxels
-/// per side.
+/// For each centre of a projection: the threshold, or kNever if the projection separates its box
+/// from the triangle. N voxels per side.
 template <int N>
 struct Thresholds {
   V at[N][N];
 };
 
-/// Negative for voxels of a row along `axis` that [low, high] does not meet.
+/// Sets `row`, for the voxels along `axis`, to a negative number iff the range of the triangle does
+/// not meet the segment of length `pad` around the centre of the voxel.
 template <int N>
 void meetsRange(const Triangles& t, int axis, int pad, V (&row)[N]) {
   const V half = broadcast(pad * kHalf);
@@ -126,8 +127,8 @@ void fill(const Triangles& t, const Projection& p, int k, int padA, int padB, V 
   }
 }
 
-/// Voxels whose 2 n.c is within its threshold of the plane: |4 n.c - planeSum| <= threshold(x, y,
-/// z).
+/// Bits of the voxels whose centre c is within a threshold of the plane:
+/// |4 n.c - planeSum| <= threshold(x, y, z).
 template <int N, class Threshold>
 Bits nearPlane(const Triangles& t, const Threshold& threshold) {
   const hn::RebindToUnsigned<D> du;
@@ -153,7 +154,7 @@ Bits nearPlane(const Triangles& t, const Threshold& threshold) {
   return voxels;
 }
 
-/// 2 size - planeOpen: the threshold of nearPlane for boxes whose half widths give size = t.|n|.
+/// Threshold of nearPlane for boxes of half widths t: 2 size - planeOpen with size = t.|n|.
 V planeThreshold(const Triangles& t, V size) {
   return hn::Sub(hn::Add(size, size), t.planeOpen);
 }
@@ -181,8 +182,8 @@ Bits scan26(const Triangles& t) {
   return voxels;
 }
 
-/// No component of any normal may be 0: then the plane crosses each segment, and the projection
-/// along it says the rest.
+/// Precondition: no component of any normal is 0. Then the plane crosses the line of each segment,
+/// and besides the plane only the projection along the segment has to be tested.
 template <int N>
 Bits scan6(const Triangles& t) {
   Thresholds<N> along[3];
@@ -193,7 +194,7 @@ Bits scan6(const Triangles& t) {
   });
 }
 
-/// Any triangle: all inequalities, for each of the three segments.
+/// For any triangles: tests all inequalities for each of the three segments.
 template <int N>
 Bits scan6Flat(const Triangles& t) {
   Thresholds<N> along[3][3];  // [segment along][projection along]
@@ -220,7 +221,8 @@ Bits scanBlocks(const Triangles& t, Separation separation) {
   return hn::AllFalse(D(), hn::Eq(least, hn::Zero(D()))) ? scan6<N>(t) : scan6Flat<N>(t);
 }
 
-/// Plane through corner 0: floor and ceil of n.corner / kHalf, by parts that doubles hold.
+/// Sets the plane through corner 0: floor and ceil of n.corner / kHalf, computed in parts that
+/// doubles can hold.
 void finishPlane(Triangles& t) {
   for (int axis = 0; axis < 3; ++axis) {
     const int a = (axis + 1) % 3;

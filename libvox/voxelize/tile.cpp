@@ -1,4 +1,4 @@
-// Forward differences over a tile, many rows at a time.
+// Vertices of a tile by forward differences, many rows at a time.
 
 // Highway compiles this file once per instruction set, between HWY_BEFORE_ and HWY_AFTER_NAMESPACE.
 #undef HWY_TARGET_INCLUDE
@@ -20,13 +20,12 @@ namespace {
 
 constexpr int kFractionBits = 27;  // and 5 for the 32 voxels of a MarkBrick
 constexpr std::uint32_t kHalf = std::uint32_t{1} << (kFractionBits - 1);
-/// Added to a small multiple of 2^-kFractionBits, it leaves the integer in the low bits of a
-/// double.
+/// Added to a double below 2^51, it rounds the double and leaves the integer in its low bits.
 constexpr double kToInteger = 6755399441055744.0;  // 1.5 * 2^52
 
 constexpr std::size_t kMostRows = std::size_t{1} << kMostTileLevels;
 
-/// Weights of the patch for every row of a tile; beyond the last row, 0.
+/// Weights of the patch for every row of a tile; 0 beyond the last row.
 struct RowWeights {
   alignas(64) std::array<double, kMostRows> minus{};
   alignas(64) std::array<double, kMostRows> plus{};
@@ -44,9 +43,9 @@ std::array<RowWeights, kMostTileLevels + 1> makeRowWeights() {
 }
 const std::array<RowWeights, kMostTileLevels + 1> kRowWeights = makeRowWeights();
 
-/// What a row starts with: coordinates and their first and second differences along it, as
-/// quadratics over the rows given by three control values each, in units of 2^-kFractionBits
-/// voxels.
+/// Start values of the rows: the coordinates of the first vertex, and their first and second
+/// differences along the row. Each is a quadratic across the rows, given by three control values,
+/// in units of 2^-kFractionBits voxels.
 using Quadratic = std::array<double, 3>;  // at minus, zero, plus
 struct RowStarts {
   std::array<Quadratic, 3> value, first, second;
@@ -69,7 +68,7 @@ RowStarts rowStarts(const TileControls& controls, int k) {
   return starts;
 }
 
-/// The same for each row, as integers.
+/// Start values of each row, as integers.
 struct Rows {
   using Column = std::array<std::uint32_t, kMostRows>;
   alignas(64) std::array<Column, 3> value;
@@ -151,7 +150,7 @@ inline void fillRows(const Quadratic& q, const RowWeights& weights, std::size_t 
     hn::Store(hn::Add(hn::ConcatEven(d32, at(i + lanes), at(i)), shift), d32, out + i);
 }
 
-/// Three coordinates of one vertex in each of several rows.
+/// The coordinates of one vertex in each of several rows, with their differences.
 template <class D>
 struct Stepper {
   using V = hn::Vec<D>;
@@ -178,13 +177,14 @@ struct Stepper {
   }
 };
 
-/// High halves of a in the even lanes, of b in the odd ones; their five high bits count voxels.
+/// The high halves of a in the even lanes and of b in the odd lanes. Their five high bits are the
+/// voxel.
 template <class D16, class V>
 HWY_INLINE hn::Vec<D16> highHalves(D16 d16, V a, V b) {
   return hn::OddEven(hn::BitCast(d16, b), hn::BitCast(d16, hn::ShiftRight<16>(a)));
 }
 
-/// Index of a mark (mark_brick.h) from coordinates whose bits 11-15 count voxels.
+/// Index of a mark (mark_brick.h) from coordinates whose bits 11-15 are the voxel.
 template <class D16, class V>
 HWY_INLINE V markIndex(D16 d16, V x, V y, V z) {
   const auto in = hn::Set(d16, std::uint16_t{0x3800});

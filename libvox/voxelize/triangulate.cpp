@@ -1,8 +1,8 @@
 // Triangulation of polygons (Cohen, Kaufman & Wang 1994, section 7): ear clipping (Meisters 1975)
-// against the average normal (Newell), where an ear's prism along the normal holds no other vertex.
-// Corners are projected along the normal onto a lattice of 51 bits; from there on, orientation is
-// exact. A grid finds the vertices near an ear. An ear that a vertex blocks waits for that vertex
-// to become convex, so ears are tried again only when that may help.
+// along the average normal (Newell). An ear is a corner whose triangle, seen along the normal,
+// holds no other vertex. Corners are projected along the normal onto a lattice of 51 bits; on it,
+// orientations are exact. A grid finds the vertices near an ear. If a vertex blocks an ear, the ear
+// waits until this vertex becomes convex, so that ears are not tried again in vain.
 
 #include "libvox/voxelize/triangulate.h"
 
@@ -22,13 +22,13 @@ __extension__ using Int128 = __int128;
 
 constexpr double kLatticeReach = 1LL << 50;  // cross products stay below 2^105
 
-/// A position seen along the normal.
+/// A position projected along the normal.
 struct Flat {
   std::int64_t x, y;
   bool operator==(const Flat&) const = default;
 };
 
-/// > 0 if a, b, c turn left, < 0 right, 0 if they lie on a line.
+/// Positive if a, b, c turn left, negative if they turn right, 0 if they are on a line.
 Int128 turn(const Flat& a, const Flat& b, const Flat& c) {
   return Int128{b.x - a.x} * (c.y - a.y) - Int128{b.y - a.y} * (c.x - a.x);
 }
@@ -37,10 +37,11 @@ Vec3d newellNormal(std::span<const Vec3d> corners) {
   return twiceAreaVector(corners.size(), [&](std::size_t i) { return corners[i]; });
 }
 
-/// The corners seen against the normal, counter-clockwise, at most kLatticeReach from corner 0.
+/// The corners projected along the normal, so that they run counter-clockwise, and scaled so that
+/// they are at most kLatticeReach from corner 0.
 std::vector<Flat> flattened(std::span<const Vec3d> corners) {
   Vec3d normal = newellNormal(corners).stableNormalized();
-  if (!(normal.squaredNorm() > 0.5)) normal = Vec3d::UnitZ();  // no area: any will do
+  if (!(normal.squaredNorm() > 0.5)) normal = Vec3d::UnitZ();  // no area: any normal is as good
   const Vec3d right = normal.unitOrthogonal();
   const Vec3d up = normal.cross(right);
   double reach = 0;
@@ -57,9 +58,8 @@ std::vector<Flat> flattened(std::span<const Vec3d> corners) {
   return flat;
 }
 
-/// How good an ear is: first its smallest angle, in coarse steps, then its short diagonal. (By
-/// angle alone, ears of round polygons are all alike and would follow one another around, in a
-/// fan.)
+/// Quality of an ear: first its smallest angle, in coarse steps, then a short diagonal. (By the
+/// angle alone, all ears of a round polygon would be alike, and a fan would result.)
 struct Shape {
   int sharpness;  ///< 256 sin(smallest angle)
   double diagonal;
@@ -78,7 +78,7 @@ Shape shapeOf(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return {static_cast<int>(256 * sine), diagonal};
 }
 
-/// Buckets of vertices on a square grid of about one per cell.
+/// Vertices sorted into the cells of a square grid, about one per cell.
 class VertexGrid {
  public:
   explicit VertexGrid(const std::vector<Flat>& vertices) {
@@ -102,7 +102,7 @@ class VertexGrid {
     }
   }
 
-  /// First vertex in the cells of a box that `wanted` accepts, or kNone.
+  /// The first vertex in the cells of a box for which wanted(vertex) is true, or kNone.
   template <class Wanted>
   Index find(const Flat& low, const Flat& high, Wanted&& wanted) const {
     for (std::int64_t y = column(low.y - low_.y); y <= column(high.y - low_.y); ++y)
@@ -122,7 +122,7 @@ class VertexGrid {
 
   Flat low_;
   std::int64_t columns_, cell_;
-  std::vector<Index> starts_;  ///< of the cells' vertices
+  std::vector<Index> starts_;  ///< for each cell, the first of its entries in vertices_
   std::vector<Index> vertices_;
 };
 
@@ -140,7 +140,8 @@ class EarClipper {
     for (Index i = 0; i < n; ++i) tryEar(i);
   }
 
-  /// Whether ears were found to the end.
+  /// Appends the triangles.
+  /// @return false if ears ran out, so that the rest became a fan
   bool clip(std::vector<std::array<Index, 3>>& triangles) {
     auto left = corners_.size();
     while (left > 3 && !ears_.empty()) {
@@ -162,7 +163,7 @@ class EarClipper {
  private:
   struct Vertex {
     Index before = 0, after = 0;
-    Index version = 0;  ///< counts its triangles
+    Index version = 0;  ///< number of changes of its two neighbours
     bool convex = false;
     bool gone = false;
   };
@@ -201,7 +202,8 @@ class EarClipper {
       waiting_[blocker].push_back(ear);
   }
 
-  /// A vertex in the closed triangle at `tip`. If there is any, there is one that is not convex.
+  /// A vertex in the closed triangle at `tip`, or kNone. Only vertices that are not convex are
+  /// tried: if there is any vertex in the triangle, there is such a vertex.
   Index blockerOf(Index tip) const {
     const Flat& a = flat_[vertices_[tip].before];
     const Flat& b = flat_[tip];
@@ -212,12 +214,13 @@ class EarClipper {
       const Flat& p = flat_[i];
       if (vertices_[i].convex || vertices_[i].gone) return false;
       if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y) return false;
-      if (p == a || p == b || p == c) return false;  // the triangle's own, or one that touches it
+      if (p == a || p == b || p == c) return false;  // a corner of the triangle, or at its place
       return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
     });
   }
 
-  /// Fans what is left; false if it was more than a triangle.
+  /// Appends a fan for the rest of the polygon.
+  /// @return whether the rest was a single triangle
   bool fan(std::vector<std::array<Index, 3>>& triangles) const {
     const auto first = static_cast<Index>(
         std::find_if(vertices_.begin(), vertices_.end(), [](const Vertex& v) { return !v.gone; }) -
@@ -233,11 +236,12 @@ class EarClipper {
   std::vector<Flat> flat_;
   VertexGrid grid_;
   std::vector<Vertex> vertices_;
-  std::vector<std::vector<Ear>> waiting_;  ///< by the vertex that blocks them
+  std::vector<std::vector<Ear>> waiting_;  ///< for each vertex, the ears that it blocks
   std::priority_queue<Ear> ears_;
 };
 
-/// Whether ears were found.
+/// Cuts a quad along a diagonal.
+/// @return whether a diagonal lies inside
 bool splitQuad(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>& triangles) {
   const Vec3d normal = newellNormal(corners);
   const auto turnsLeft = [&](std::size_t a, std::size_t b, std::size_t c) {

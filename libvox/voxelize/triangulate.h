@@ -10,20 +10,22 @@
 
 namespace vox {
 
-/// Polygons that no ears were found for, over any number of calls.
+/// Count of failures of triangulate, summed over any number of calls.
 struct TriangulationReport {
-  std::uint64_t fanned = 0;  ///< polygons whose rest, folded or without area, became a fan
+  std::uint64_t fanned = 0;  ///< polygons that became a fan in part: folded, or without area
 };
 
-/// Cuts a polygon in space into triangles: any number of corners, concave, not planar. Appends
-/// max(n - 2, 0) triangles of corner numbers 0..n-1, wound as the polygon; each side of the polygon
-/// is a side of one triangle. Never fails: what has no ear becomes a fan and is counted.
+/// Cuts a polygon in space into triangles. It may have any number of corners, be concave, and need
+/// not be planar. Appends max(n - 2, 0) triangles of corner numbers 0..n-1, wound like the polygon;
+/// each side of the polygon is a side of one triangle. Never fails: if a part of the polygon has no
+/// ear, it becomes a fan, and the polygon is counted in the report.
 ///
-/// Seen along the polygon's normal (its area vector), the triangles cover a simple polygon without
-/// overlap, and none is without area unless repeated corners force it. Corners may lie on sides and
-/// sides may touch (a hole joined to the outside by a bridge there and back).
-/// Quads: along the shorter diagonal of the two, or of those that lie inside; equal ones: 0-2.
-/// Others: ear clipping, the best-shaped ear first (smallest angle, then short diagonal).
+/// Seen along the normal of the polygon (its area vector), the triangles cover a simple polygon
+/// without overlap; each has an area, unless repeated corners make that impossible. Corners may lie
+/// on sides, and sides may touch (a hole that a double bridge connects with the outline).
+/// Quads are cut along a diagonal that lies inside; if both or none do, along the shorter one; if
+/// these are equal, along 0-2. Other polygons: ear clipping, the best-shaped ear first (largest
+/// smallest angle, then shortest diagonal).
 ///
 /// @param corners  n positions, finite, any unit
 ///
@@ -33,10 +35,10 @@ struct TriangulationReport {
 void triangulate(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>& triangles,
                  TriangulationReport& report);
 
-/// Cuts faces of meshes into triangles; keeps its work space and its report.
+/// Cuts faces of meshes into triangles. Keeps work space and a report. One object per thread.
 class FaceTriangulator {
  public:
-  /// Appends the triangles of face f, given by points of the mesh.
+  /// Appends the triangles of face f, as indices of points of the mesh.
   void add(const PolygonMesh& mesh, Index f, std::vector<std::array<Index, 3>>& triangles);
   const TriangulationReport& report() const { return report_; }
 

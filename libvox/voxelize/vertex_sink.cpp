@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostSmallVertices = std::size_t{1} << (2 * (kLeastTileLevels - 1));
 
-/// Weights along an axis of a patch too small for a tile, k levels down.
+/// Weights of the 2^k vertices along an axis of a patch that is too small for a tile.
 std::span<const PatchWeights> smallWeights(int k) {
   static_assert(kLeastTileLevels == 3);
   static const std::array<PatchWeights, 7> kWeights = {
@@ -57,9 +57,10 @@ void VertexSink::patch(const Patch& patch, int k, int level) {
   markWhole(patch, k);
 }
 
-/// Where faces are missing, descendants only go towards those that exist: a vertex between two
-/// faces becomes a row, one with a single face stays single, and three faces give two rows that
-/// meet.
+/// Marks the descendants of a vertex with missing faces. They lie only towards the faces that
+/// exist: a vertex between two faces becomes a row, a vertex of one face a single vertex, and a
+/// vertex of three faces two rows with a common end.
+/// @return number of descendants
 std::uint64_t VertexSink::markFewQuadrants(const Patch& patch, int k) {
   const std::int64_t n = std::int64_t{1} << k;
   const auto has = [&](unsigned quadrant) { return (patch.quadrants >> quadrant & 1U) != 0; };
@@ -76,7 +77,8 @@ std::uint64_t VertexSink::markFewQuadrants(const Patch& patch, int k) {
            v(p[2][0], p[2][1], p[2][2])));
     ++count;
   };
-  // The end of an axis to which everything is drawn where the other side has a face missing.
+  // The row (u) and the column (v) on which the descendants lie: at the end of the axis that has
+  // the faces.
   const std::int64_t u = highU || (!lowU && (has(2) || has(3))) ? n - 1 : 0;
   const std::int64_t v = highV || (!lowV && (has(1) || has(3))) ? n - 1 : 0;
   const bool rowAlongV = lowU || highU;

@@ -9,16 +9,18 @@
 
 namespace vox {
 
-/// Vertex conversion: rounds the vertices of a surface to voxels of a shared grid.
+/// Vertex conversion: switches on the voxels that hold the vertices of a surface.
 ///
-/// Rounding moves the corners of a triangle of L-inf diameter <= 1 to corners of one unit cube, so
-/// where every face is as small as that, the rounded surface, nowhere farther than 1/2 (L-inf) from
-/// the surface, meets a step between neighbouring voxel centres only at active voxels: no path of
-/// inactive voxels, face to face, crosses it. (A single step may cross the surface itself, into a
-/// pocket that leads nowhere.) The active voxels 6-separate its sides.
+/// Why there are no tunnels. Rounding moves the corners of a triangle of L-inf diameter <= 1 to
+/// corners of one unit cube. If all faces are that small, consider the rounded surface, which is at
+/// most 1/2 (L-inf) from the surface. It meets a step between neighbouring voxel centres only at
+/// active voxels. So no path of inactive voxels, face to face, crosses it: the active voxels
+/// 6-separate its sides. (A single step may cross the surface itself, into a pocket that leads
+/// nowhere.)
 ///
-/// One per thread; the voxels do not depend on who gets which patch. Positions are exact up to
-/// kTileError (tile.h). Source: paper section 5, with the criterion of DESIGN section 9.
+/// One object per thread; the voxels do not depend on the distribution of patches to threads.
+/// Positions are exact up to kTileError (tile.h). Source: paper section 5, with the criterion of
+/// DESIGN section 9.
 class VertexSink : public SurfaceSink {
  public:
   explicit VertexSink(ActiveVoxels& grid) : cache_(grid) {}
@@ -27,9 +29,12 @@ class VertexSink : public SurfaceSink {
   void patch(const Patch& patch, int k, int level) override;
   void curve(const CurvePoints& points, int k, int level) override;
 
-  /// Sends what is still here to the grid.
+  /// Sends all voxels to the grid.
+  /// @throws LimitError  the grid exceeds its memory limit; points, patch and curve may throw it,
+  /// too
   void flush() { cache_.flush(); }
 
+  /// Number of vertices so far, by level.
   const LevelCounts& vertices() const { return vertices_; }
 
  private:

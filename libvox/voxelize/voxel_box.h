@@ -7,13 +7,13 @@
 
 namespace vox {
 
-/// Voxels that the descendants of a patch may fall into: the box of its Bezier points, which holds
-/// them all, since each level cuts corners.
+/// A box of all voxels that can hold descendants of a patch. It is the box of the Bezier points of
+/// the patch: subdivision only cuts corners, so all descendants stay in it.
 struct VoxelBox {
   openvdb::Coord low, high;
 
-  /// @param patch   complete
-  /// @param margin  by which descendants may be computed wrongly, in voxels
+  /// @param patch   with all four faces
+  /// @param margin  bound of the error of computed descendants, in voxels
   VoxelBox(const Patch& patch, double margin) {
     const auto bezier = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
       return std::array<Vec3d, 3>{(a + b) / 2.0, b, (b + c) / 2.0};

@@ -1,4 +1,4 @@
-// What every reader keeps, whatever bytes it is given; the program ends where one does not.
+// The guarantees of the readers for any input. The program aborts if one is broken.
 #pragma once
 
 #include "libvox/core/error.h"
@@ -18,7 +18,7 @@ inline void require(bool kept, const char* law) {
   std::abort();
 }
 
-/// The promises of read_mesh.h.
+/// Checks the guarantees of read_mesh.h.
 inline void requireSoundMesh(const PolygonMesh& mesh) {
   require(mesh.faceCount() > 0, "a mesh has at least one face");
   require(mesh.faceOffsets.front() == 0 && mesh.faceOffsets.back() == mesh.faceVertices.size(),
@@ -31,7 +31,7 @@ inline void requireSoundMesh(const PolygonMesh& mesh) {
             "coordinates are finite and within kMaxCoordinate");
 }
 
-/// One printable line that starts with the name of the file.
+/// Checks that a message is one printable line that starts with the name of the file.
 inline void requireClearRefusal(const InputError& error, std::string_view file) {
   const std::string_view message = error.what();
   require(message.starts_with(file) && message.substr(file.size()).starts_with(":"),

@@ -1,4 +1,5 @@
-// Any bytes are a sound mesh or refused clearly. VOX_FUZZ_FILE is a file name of the format.
+// Fuzz target: any bytes are read as a mesh and made sound, or are refused with an error.
+// VOX_FUZZ_FILE is a file name of the format.
 
 #include "libvox/io/read_mesh.h"
 #include "tests/fuzz/laws.h"

@@ -1,5 +1,5 @@
-// Runs a fuzz target without libFuzzer: over its corpus, then over mutations of it that are the
-// same every time. What it dies of stays behind in the file INPUT.
+// Runs a fuzz target without libFuzzer: first on its corpus, then on mutations of it, which are the
+// same in every run. If the target crashes, the file INPUT has the bytes.
 // Usage: replay CORPUS COUNT INPUT
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_view_literals;
 
-constexpr unsigned kMostSeconds = 60;  // for one input, under any sanitizer; the rest hangs
+constexpr unsigned kMostSeconds = 60;  // for one input; more counts as a hang, with any sanitizer
 
 std::vector<std::string> readCorpus(const fs::path& folder) {
   std::vector<fs::path> files(fs::directory_iterator(folder), fs::directory_iterator{});
@@ -43,7 +43,7 @@ std::string pieceOf(const std::string& text, std::mt19937& random) {
   return text.substr(below(text.size(), random), 1 + below(64, random));
 }
 
-/// Numbers at the limits of their types, and what separates them.
+/// Pieces of text that often reveal faults: numbers at the limits of their types, and separators.
 std::string tellingPiece(std::mt19937& random) {
   constexpr std::string_view kPieces[] = {"0"sv,
                                           "-1"sv,

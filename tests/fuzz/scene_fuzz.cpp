@@ -1,4 +1,5 @@
-// Any bytes are a scene of sound objects or refused clearly.
+// Fuzz target: any bytes are read as a scene and its objects made sound, or are refused with an
+// error.
 
 #include "libvox/io/scene_file.h"
 #include "tests/fuzz/laws.h"

@@ -66,9 +66,10 @@ openvdb::GridBase::Ptr rounded(const Mesh& mesh) {
   return mask;
 }
 
-/// @param flags  of meshToVolume
+/// Distances by meshToVolume.
+/// @param flags  those of meshToVolume
 openvdb::GridBase::Ptr distances(Mesh& mesh, float band, int flags) {
-  mesh.collect_garbage();  // what subdivision has replaced keeps its numbers until then
+  mesh.collect_garbage();  // else replaced elements would keep their numbers
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec4I> polygons;
   points.reserve(mesh.number_of_vertices());

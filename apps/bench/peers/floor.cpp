@@ -1,4 +1,4 @@
-// Loads OpenVDB and ends: what every program that uses the library costs before it does anything.
+// Loads OpenVDB and ends: the cost of every program that uses the library, before any work.
 
 #include <openvdb/openvdb.h>
 

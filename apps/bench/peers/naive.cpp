@@ -1,5 +1,6 @@
-// Doo-Sabin subdivision of the whole mesh down to the voxel on one thread, then rounding: what one
-// writes from the textbook in an afternoon. Edges are found in a hash table. Boundaries shrink.
+// Doo-Sabin subdivision of the whole mesh down to the voxel, then rounding; on one thread, as one
+// would write it from a textbook in an afternoon. Edges are found by a hash table. Boundaries
+// shrink.
 
 #include "apps/bench/peers/peer.h"
 
@@ -17,7 +18,8 @@ using vox::kNone;
 using vox::PolygonMesh;
 using vox::Vec3d;
 
-/// A mesh with, for each corner, the next and previous one in its face and the one across its edge.
+/// For each corner of a mesh: the next and the previous corner in its face, and the twin across its
+/// edge.
 struct Corners {
   std::vector<Index> next;
   std::vector<Index> previous;
@@ -81,7 +83,7 @@ std::vector<Vec3d> imageVertices(const PolygonMesh& mesh) {
   return image;
 }
 
-/// The V-faces: the corners around each point that is not on the boundary.
+/// Adds the V-faces: the corners around each point that is not on the boundary.
 void addVertexFaces(const Corners& corners, PolygonMesh& next) {
   std::vector<bool> seen(corners.next.size());
   std::vector<Index> face;

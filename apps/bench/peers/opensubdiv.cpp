@@ -1,5 +1,5 @@
-// OpenSubdiv's uniform Catmull-Clark refinement of a mesh, positions included: its throughput.
-// There is no Doo-Sabin in OpenSubdiv, and no voxels.
+// OpenSubdiv's uniform Catmull-Clark refinement of a mesh, topology and positions. (OpenSubdiv has
+// no Doo-Sabin and no voxels.)
 
 #include "libvox/io/read_mesh.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 namespace Far = OpenSubdiv::Far;
 
-/// What OpenSubdiv interpolates.
+/// A position, with the interface that OpenSubdiv needs for interpolation.
 struct Point {
   vox::Vec3d at = vox::Vec3d::Zero();
   void Clear() { at.setZero(); }

@@ -12,7 +12,7 @@
 namespace vox::peer {
 namespace {
 
-/// Longest side of the box of the points that faces use.
+/// Longest side of the box of all points that belong to a face.
 double longestSide(const PolygonMesh& mesh) {
   Vec3d low = mesh.points[mesh.faceVertices.front()];
   Vec3d high = low;

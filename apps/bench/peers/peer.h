@@ -8,18 +8,18 @@
 #include <functional>
 #include <span>
 
-/// What the peers share: programs that do what `vox convert` does in the way its user would
-/// otherwise have done it. libvox only reads the mesh for them.
+/// Common code of the peers: programs that do the work of `vox convert` in other ways. They use
+/// libvox only to read the mesh.
 namespace vox::peer {
 
-/// Refines a closed or open manifold, in voxels, until no face is longer than `span` (spanOf), once
-/// at least, and makes a grid of it, in index space and with its name.
+/// Refines a closed or open manifold, given in voxels, at least once and until the span of every
+/// face is at most `span` (spanOf); makes a grid in index space, with its name.
 using Voxelize = std::function<openvdb::GridBase::Ptr(const PolygonMesh& meshIndex, double span)>;
 
-/// Faces up to 1 leave no tunnel between the voxels of their corners. vox stops at this instead,
-/// for rounding, and so do the peers, to do the same work for the same voxels; `--span 1` makes a
-/// difference where faces are exactly a voxel long: a cube of 2^n voxels is then done a level
-/// earlier.
+/// Default of `--span`. A span of 1 is enough to leave no tunnel between the voxels of the corners.
+/// vox stops at 0.999 because of rounding errors, and so do the peers, so that all make the same
+/// voxels with the same work. `--span 1` matters if faces are exactly one voxel long: a cube of 2^n
+/// voxels then needs one level less.
 inline constexpr double kDefaultSpan = 0.999;
 
 /// Reads a mesh, scales it to `--dim` voxels along the longest side of its box (world = voxel size
@@ -31,8 +31,8 @@ int run(int argc, char** argv, CLI::App& app, const Voxelize& voxelize);
 /// An empty grid "mask".
 openvdb::MaskGrid::Ptr newMask();
 
-/// Longest L-inf edge of a triangulated face: the better diagonal of a quad, the diameter of
-/// others.
+/// Longest L-inf edge of a face that is cut into triangles: of a quad with its shorter diagonal; of
+/// other faces the diameter.
 double spanOf(std::span<const Vec3d> corners);
 
 /// Voxel of a position: each coordinate rounded, halves up.
