@@ -68,6 +68,11 @@ std::string description(const CLI::Option& option) {
   return text;
 }
 
+/// Text below the options of a command; empty if it only inherits the program's.
+std::string ownFooter(const CLI::App& command, const CLI::App& app) {
+  return command.get_footer() == app.get_footer() ? std::string() : command.get_footer();
+}
+
 void addOptions(std::ostream& page, const CLI::App& command) {
   for (const CLI::Option* option : positionals(command))
     page << ".TP\n.I " << roff(option->get_name(true)) << '\n'
@@ -159,8 +164,8 @@ std::string manualPage(const CLI::App& app) {
     page << ".SS vox " << roff(command->get_name()) << '\n'
          << roff(command->get_description()) << '\n';
     addOptions(page, *command);
-    if (!command->get_footer().empty())
-      page << ".PP\n.nf\n" << roff(command->get_footer()) << "\n.fi\n";
+    if (const std::string footer = ownFooter(*command, app); !footer.empty())
+      page << ".PP\n.nf\n" << roff(footer) << "\n.fi\n";
   }
   page << ".SH EXIT STATUS\n" << roff(app.get_footer()) << '\n';
   return page.str();
@@ -176,7 +181,8 @@ std::string markdownTables(const CLI::App& app) {
       page << ' ' << option->get_name(true) << (option->get_items_expected_max() > 1 ? "..." : "");
     page << "\n```\n\n";
     addTable(page, *command, firstCommand);
-    if (!command->get_footer().empty()) page << "\n```\n" << command->get_footer() << "```\n";
+    if (const std::string footer = ownFooter(*command, app); !footer.empty())
+      page << "\n```\n" << footer << (footer.ends_with('\n') ? "" : "\n") << "```\n";
     page << "\n<!-- end of options -->\n";
   }
   return page.str();
