@@ -249,7 +249,7 @@ std::string footer() {
 
 Action addCheck(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "check", "Look for faults in a .vdb file: tunnels, leaks, what viewers will not show");
+      "check", "Find faults of a .vdb file: tunnels, leaks, grids that viewers do not show");
   const auto options = std::make_shared<Options>();
   command->add_option("FILE", options->file, "OpenVDB file (.vdb) of any program")->required();
   command

@@ -258,7 +258,7 @@ void addMeshOptions(CLI::App& command, Options& options) {
 
 Action addRender(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("render", "Draw a .vdb file, or what a mesh or scene becomes (.png)");
+      app.add_subcommand("render", "Draw a .vdb file, or the voxels of a mesh or scene (.png)");
   const auto options = std::make_shared<Options>();
   command
       ->add_option("INPUT", options->input,
