@@ -15,6 +15,9 @@ from mathutils import Vector
 # Optical depth of one voxel: a shell that thin is to look solid.
 DEPTH_OF_VOXEL = 6.0
 LIGHT = Vector((-0.5, -0.6, 0.62))  # towards the sun, in world space
+# Of out.png. Blender's own 1920 x 1080 pixels of 4096 samples would take hours.
+PICTURE_SIZE = 960, 540
+PICTURE_SAMPLES = 64
 
 
 def grids_of(volume):
@@ -191,8 +194,11 @@ def main(arguments):
     make_way()
     frame(import_vdb(arguments[0]))
     if len(arguments) > 1:
-        bpy.context.scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
-        bpy.context.scene.render.filepath = arguments[1]
+        scene = bpy.context.scene
+        scene.render.resolution_x, scene.render.resolution_y = PICTURE_SIZE
+        scene.cycles.samples = PICTURE_SAMPLES
+        scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
+        scene.render.filepath = arguments[1]
         bpy.ops.render.render(write_still=True)
 
 

@@ -240,7 +240,7 @@ std::string footer() {
     constexpr std::size_t kWidth = 14;
     text += "  " + code + std::string(kWidth - std::min(kWidth, code.size()), ' ') + what + '\n';
   };
-  line(kTunnel, "voxels that do not separate the sides of the surface of --mesh");
+  line(kTunnel, "with --mesh: the voxels do not separate the two sides of the surface");
   line(kLeak, "without --mesh: a space that one or two voxels more would enclose");
   for (const LintRule& rule : lintRules()) line(rule.code, rule.what);
   return text;
@@ -250,12 +250,13 @@ std::string footer() {
 
 Action addCheck(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "check", "Look for faults in a .vdb file: tunnels, leaks, what viewers will not show");
+      "check", "Find faults of a .vdb file: tunnels, leaks, grids that viewers do not show");
   const auto options = std::make_shared<Options>();
   command->add_option("FILE", options->file, "OpenVDB file (.vdb) of any program")->required();
   command
       ->add_option("--mesh", options->mesh,
-                   "Scene or mesh the file was made from: its surface must have no tunnels")
+                   "Scene or mesh that the file was made from. The voxels are compared with its "
+                   "surface, which is made again: they must leave no tunnels")
       ->type_name("INPUT")
       ->group("Surface");
   command
@@ -266,13 +267,14 @@ Action addCheck(CLI::App& app) {
   addSmoothingOptions(*command, options->smoothing);
   command
       ->add_option("--until", options->until,
-                   "As the file was made; this and the other options of vox convert are taken from "
-                   "its metadata where they are not given")
+                   "--until of the conversion that made the file. By default this and all other "
+                   "options of the conversion are read from the metadata of the file")
       ->type_name("voxel|levels=K")
       ->group("Surface");
   addWeldOption(*command, options->weldTolerance);
   command
-      ->add_option("--ignore", options->ignore, "Faults that do not count, with commas: see below")
+      ->add_option("--ignore", options->ignore,
+                   "Faults that do not count, with commas; their names are below")
       ->type_name("LIST")
       ->group("Output");
   command->add_flag("--json", options->json, "Print JSON")->group("Output");

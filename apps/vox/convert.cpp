@@ -196,7 +196,7 @@ Action addConvert(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   command
       ->add_option("INPUT", options->inputs,
-                   "Scene (.toml) or mesh (.obj .ply .off .stl .om); several of them, or a pattern "
+                   "Scene (.toml) or mesh (.obj .ply .off .stl .om). Several inputs, or a pattern "
                    "such as mesh.####.obj, become a sequence out.####.vdb with one voxel size")
       ->required()
       ->type_name("");
@@ -236,8 +236,8 @@ Action addConvert(CLI::App& app) {
       ->group("Output");
   command
       ->add_flag("--dry-run", options->dryRun,
-                 "Print voxels, memory, levels and file size to expect, to within a factor of 1.5 "
-                 "or so, and write nothing")
+                 "Print an estimate of voxels, memory, levels and file size, within a factor of "
+                 "about 1.5, and write nothing")
       ->group("Run");
   addCommonOptions(*command, options->common);
   return [options] { return run(*options); };

@@ -182,17 +182,18 @@ Action addDiff(CLI::App& app) {
       ->group("Comparison");
   command
       ->add_option("--relative", options->diff.relativeTolerance,
-                   "... and by this part of the larger one besides (default: 0)")
+                   "Values may differ, in addition, by this fraction of the larger one (default: "
+                   "0)")
       ->type_name("R")
       ->group("Comparison");
-  command->add_option("--grids", options->grids, "Compare these only, with commas (default: all)")
+  command->add_option("--grids", options->grids, "Grids to compare, with commas (default: all)")
       ->type_name("LIST")
       ->group("Comparison");
   command->add_flag("--no-metadata", options->noMetadata, "Do not compare metadata")
       ->group("Comparison");
   command
       ->add_option("-o,--output", options->output,
-                   "Write what differs as grids: NAME_only_a, NAME_only_b, NAME_difference")
+                   "Write the differences as grids: NAME_only_a, NAME_only_b, NAME_difference")
       ->type_name("OUT.vdb")
       ->group("Output");
   command->add_flag("-f,--force", options->force, "Overwrite an existing output file")

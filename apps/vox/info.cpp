@@ -203,7 +203,8 @@ int run(const Options& options) {
 }  // namespace
 
 Action addInfo(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("info", "Print what is in meshes, scenes and .vdb files");
+  CLI::App* command =
+      app.add_subcommand("info", "Print the contents of meshes, scenes and .vdb files");
   const auto options = std::make_shared<Options>();
   command->add_option("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)")
       ->required();

@@ -99,6 +99,7 @@ int run(int argc, char** argv) {
         ->group("");  // not in --help
   };
   print("--man", manualPage);
+  print("--markdown", markdownTables);
   print("--bash-completion", bashCompletion);
 
   try {

@@ -1,10 +1,11 @@
-// Manual page and shell completion from the option table.
+// Manual page, option tables in Markdown and shell completion, all from the option table.
 
 #include "apps/vox/manual.h"
 
 #include "libvox/core/version.h"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -38,22 +39,96 @@ std::vector<const CLI::Option*> shownOptions(const CLI::App& command) {
   return shown;
 }
 
-bool takesValue(const CLI::Option& option) {
-  return option.get_items_expected_max() > 0;
+std::vector<const CLI::Option*> positionals(const CLI::App& command) {
+  return command.get_options([](const CLI::Option* option) { return option->get_positional(); });
+}
+
+/// Start of the range in a type name: CLI11 appends it, as in "N:INT in [1 - 16]".
+constexpr std::string_view kRange = "INT in [";
+
+/// Name of an option's value, "FILE"; empty if the option takes none.
+std::string valueName(const CLI::Option& option) {
+  if (option.get_items_expected_max() == 0) return {};
+  const std::string type = option.get_type_name();
+  return type.find(kRange) == std::string::npos ? type : type.substr(0, type.find(':'));
+}
+
+/// Help text of an option, then its range, its default and whether it must be given.
+std::string description(const CLI::Option& option) {
+  std::string text = option.get_description();
+  const std::string type = option.get_type_name();
+  if (const std::size_t range = type.find(kRange); range != std::string::npos) {
+    const std::size_t begin = range + kRange.size();
+    text += " (from " + type.substr(begin, type.find(']', begin) - begin) + ")";
+    text.replace(text.rfind(" - "), 3, " to ");
+  }
+  if (const std::string value = option.get_default_str(); !value.empty())
+    text += " (default: " + value + ")";
+  if (option.get_required() && option.nonpositional()) text += " (required)";
+  return text;
+}
+
+/// Text below the options of a command; empty if it only inherits the program's.
+std::string ownFooter(const CLI::App& command, const CLI::App& app) {
+  return command.get_footer() == app.get_footer() ? std::string() : command.get_footer();
 }
 
 void addOptions(std::ostream& page, const CLI::App& command) {
-  for (const CLI::Option* option : command.get_options())
-    if (option->get_positional())
-      page << ".TP\n.I " << roff(option->get_name(true)) << '\n'
-           << roff(option->get_description()) << '\n';
+  for (const CLI::Option* option : positionals(command))
+    page << ".TP\n.I " << roff(option->get_name(true)) << '\n'
+         << roff(option->get_description()) << '\n';
   for (const CLI::Option* option : shownOptions(command)) {
     std::string names = option->get_name(false, true);
     std::replace(names.begin(), names.end(), ',', ' ');
     page << ".TP\n\\fB" << roff(names) << "\\fR";
-    if (takesValue(*option)) page << " \\fI" << roff(option->get_type_name()) << "\\fR";
-    page << '\n' << roff(option->get_description()) << '\n';
+    if (const std::string value = valueName(*option); !value.empty())
+      page << " \\fI" << roff(value) << "\\fR";
+    page << '\n' << roff(description(*option)) << '\n';
   }
+}
+
+/// As text of a cell in a Markdown table.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+    text.insert(at, 1, '\\');
+  return text;
+}
+
+/// "`-o, --output`"; with `suffix`, "`-o, --output OUT.vdb`".
+std::string code(const CLI::Option& option, const std::string& suffix = {}) {
+  std::string names = option.get_name(option.get_positional(), true);
+  if (const std::size_t comma = names.find(','); comma != std::string::npos)
+    names.insert(comma + 1, 1, ' ');
+  return '`' + names + (suffix.empty() ? "" : ' ' + suffix) + '`';
+}
+
+/// Row of an option in a table, the same for the same option of two commands.
+std::string row(const CLI::Option& option) {
+  const std::string value = option.get_positional() ? std::string() : valueName(option);
+  return "| " + cell(code(option, value)) + " | " + cell(description(option)) + " |\n";
+}
+
+/// For each row of a table the command that it was printed for first.
+using FirstCommand = std::map<std::string, std::string>;
+
+void addTable(std::ostream& page, const CLI::App& command, FirstCommand& firstCommand) {
+  page << "| argument or option | meaning |\n|---|---|\n";
+  for (const CLI::Option* option : positionals(command)) page << row(*option);
+  std::map<std::string, std::string> shared;  // by command: options described there
+  std::string group;
+  for (const CLI::Option* option : shownOptions(command)) {
+    if (option == command.get_help_ptr()) continue;
+    const auto& [text, first] = *firstCommand.try_emplace(row(*option), command.get_name()).first;
+    if (first != command.get_name()) {
+      shared[first] += (shared[first].empty() ? "" : ", ") + code(*option);
+      continue;
+    }
+    if (option->get_group() != group) page << "| **" << option->get_group() << "** | |\n";
+    group = option->get_group();
+    page << text;
+  }
+  for (const auto& [first, names] : shared)
+    page << "\nThe same as for [vox " << first << "](#vox-" << first << "): " << names << ".\n";
 }
 
 /// "6|26" and "voxel|levels=K" as words; nothing of "FILE".
@@ -89,10 +164,27 @@ std::string manualPage(const CLI::App& app) {
     page << ".SS vox " << roff(command->get_name()) << '\n'
          << roff(command->get_description()) << '\n';
     addOptions(page, *command);
-    if (!command->get_footer().empty())
-      page << ".PP\n.nf\n" << roff(command->get_footer()) << "\n.fi\n";
+    if (const std::string footer = ownFooter(*command, app); !footer.empty())
+      page << ".PP\n.nf\n" << roff(footer) << "\n.fi\n";
   }
   page << ".SH EXIT STATUS\n" << roff(app.get_footer()) << '\n';
+  return page.str();
+}
+
+std::string markdownTables(const CLI::App& app) {
+  std::ostringstream page;
+  FirstCommand firstCommand;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    page << "<!-- options of vox " << command->get_name() << " -->\n\n"
+         << command->get_description() << ".\n\n```\nvox " << command->get_name() << " [OPTIONS]";
+    for (const CLI::Option* option : positionals(*command))
+      page << ' ' << option->get_name(true) << (option->get_items_expected_max() > 1 ? "..." : "");
+    page << "\n```\n\n";
+    addTable(page, *command, firstCommand);
+    if (const std::string footer = ownFooter(*command, app); !footer.empty())
+      page << "\n```\n" << footer << (footer.ends_with('\n') ? "" : "\n") << "```\n";
+    page << "\n<!-- end of options -->\n";
+  }
   return page.str();
 }
 

@@ -99,9 +99,11 @@ void addResolutionOptions(CLI::App& command, ResolutionOptions& resolution) {
 
 void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments) {
   command
-      .add_option("--boundary", arguments.boundary,
-                  "End an open surface at a smooth curve along its boundary (extend), or let it "
-                  "shrink from there (free) (default: the scene's, or extend)")
+      .add_option(
+          "--boundary", arguments.boundary,
+          "Where an open surface ends: at a smooth curve along the boundary of the mesh "
+          "(extend), or short of it, because smoothing shrinks the surface (free) (default: "
+          "the scene's, or extend)")
       ->type_name("extend|free")
       ->group("Smoothing");
   command
@@ -111,10 +113,9 @@ void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments) {
       ->type_name("WHICH")
       ->group("Smoothing");
   command
-      .add_option(
-          "--interpolate-vertices", arguments.vertexFile,
-          "Text file of further interior vertices to pass through, counted from 0; # starts "
-          "a comment")
+      .add_option("--interpolate-vertices", arguments.vertexFile,
+                  "Text file with the numbers of further interior vertices that the surface passes "
+                  "through, counted from 0, separated by blanks; # starts a comment")
       ->type_name("FILE")
       ->group("Smoothing");
 }
@@ -132,10 +133,11 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
   command
       .add_option(
           "--until", arguments.until,
-          "Subdivide down to the size of a voxel (voxel), or scan-convert polygons once they "
-          "keep one of some limits: levels=K steps (0: the polygons of the input), faces of "
-          "diameter=D voxels, angle=DEG between adjacent ones, within flatness=D voxels of "
-          "the smooth surface (default: the scene's, or voxel)")
+          "How far to subdivide: down to the size of a voxel (voxel); or until the polygons keep a "
+          "limit, and then scan-convert them. Limits: levels=K steps (0: the polygons of the "
+          "input), faces of at most diameter=D voxels, at most angle=DEG degrees between adjacent "
+          "faces, at most flatness=D voxels from the smooth surface. Of several limits, the first "
+          "to be met counts (default: the scene's, or voxel)")
       ->type_name("voxel|levels=K|diameter=D|angle=DEG|flatness=D")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
@@ -143,16 +145,15 @@ void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments)
   command
       .add_option(
           "--voxelize", arguments.voxelize,
-          "How the surface becomes voxels: by its vertices (vertex; needs --until voxel), by "
-          "scanning polygons (polygon), or by vertices where these can do it (auto) (default: the "
-          "scene's, or auto)")
+          "How the surface becomes voxels: by its vertices (vertex; needs --until voxel), by scan "
+          "conversion of its polygons (polygon), or by vertices where --until and --separating "
+          "allow it (auto) (default: the scene's, or auto)")
       ->type_name("auto|vertex|polygon")
       ->group("Voxels");
   command
-      .add_option(
-          "--separating", arguments.separating,
-          "Paths of inactive voxels that the surface stops: those through faces (6), or those "
-          "through edges and corners too (26) (default: 6)")
+      .add_option("--separating", arguments.separating,
+                  "Paths of inactive voxels that the surface stops: those through faces (6), or "
+                  "also those through edges and corners (26) (default: 6)")
       ->type_name("6|26")
       ->group("Voxels");
 }
@@ -176,24 +177,24 @@ Separation parseSeparation(const VoxelizationArguments& arguments) {
 void addVolumeOptions(CLI::App& command, VolumeArguments& arguments) {
   command
       .add_option("--fill", arguments.fill,
-                  "What density holds: the voxels of the surface (surface), or all that they "
-                  "enclose, too (solid) (default: the scene's, or surface)")
+                  "What the grid density holds: the voxels of the surface (surface), or these and "
+                  "all voxels that they enclose (solid) (default: the scene's, or surface)")
       ->type_name("surface|solid")
       ->group("Output");
   command
       .add_option_function<double>(
           "--gain", [&arguments](double gain) { arguments.gain = gain; },
-          "Value of density (default: the scene's, or for Blender 6 / voxel size, at least 1, "
-          "which "
-          "makes a surface opaque there; for Houdini 1)")
+          "Value of the grid density at its voxels (default: the scene's, or 6 / voxel size, at "
+          "least 1, which makes a surface opaque in Blender; 1 for --target houdini)")
       ->type_name("G")
       ->group("Output");
   command
       .add_option(
           "--open-mesh", arguments.openMesh,
-          "Where an inside is asked for, a component that has none is an error; or stays a "
-          "surface, in the grid surface a sheet one voxel thick; or gives distances without "
-          "sign there (default: the scene's, or surface)")
+          "What happens to a component without an inside, if --fill solid or the grid surface "
+          "needs one: an error (error); it stays a surface, one voxel thick in the grid surface "
+          "(surface); or its distances there have no sign (unsigned) (default: the scene's, or "
+          "surface)")
       ->type_name("error|surface|unsigned")
       ->group("Output");
   command
@@ -205,8 +206,8 @@ void addVolumeOptions(CLI::App& command, VolumeArguments& arguments) {
   command
       .add_option_function<double>(
           "--tolerance", [&arguments](double distance) { arguments.tolerance = distance; },
-          "How far the polygons that the grid surface is made from may lie off the smooth surface, "
-          "in voxels (default: the scene's, or 0.05)")
+          "Largest distance, in voxels, from the smooth surface to the polygons that the grid "
+          "surface is computed from (default: the scene's, or 0.05)")
       ->type_name("T")
       ->group("Output");
 }
@@ -219,21 +220,22 @@ void addFileOptions(CLI::App& command, VolumeArguments& arguments) {
       ->group("Output");
   command
       .add_option("--compression", arguments.compression,
-                  "How values are packed: blosc is fast, zip slow, both without loss (default: the "
-                  "scene's, or blosc)")
+                  "Compression of the file: blosc is fast, zip is slow, both are without loss "
+                  "(default: the scene's, or blosc)")
       ->type_name("blosc|zip|none")
       ->group("Output");
   command
       .add_option("--target", arguments.target,
-                  "The program that will read the file: decides names of grids and which way is "
-                  "up; blender-3.4 moves grids by the half voxel that this version is off "
-                  "(default: the scene's, or blender)")
+                  "Program that will read the file. It decides the names of grids and which way is "
+                  "up; blender-3.4 also moves all grids by half a voxel, because that version "
+                  "draws them so far off (default: the scene's, or blender)")
       ->type_name("blender|blender-3.4|houdini")
       ->group("Output");
   command
       .add_option("--up", arguments.up,
-                  "The axis of the input that points up: turned to where the target has it, z in "
-                  "Blender, y in Houdini (default: the scene's, or nothing is turned)")
+                  "Axis of the input that points up. The model is turned if another axis points up "
+                  "in the target: z in Blender, y in Houdini (default: the scene's, or nothing is "
+                  "turned)")
       ->type_name("y|z")
       ->group("Output");
 }
@@ -275,9 +277,9 @@ void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments) {
   command
       .add_option(
           "--localize", arguments.localize,
-          "Cut the mesh into submeshes, a task each (before); split their large patches into "
-          "further tasks, too (during, the default); or subdivide the whole mesh level by "
-          "level, slow and large, for comparison (off)")
+          "How the work is divided into tasks: one for each submesh (before); large patches of a "
+          "submesh become further tasks (during, the default); or not at all: the whole mesh is "
+          "subdivided level by level, slowly and in much memory, for comparison (off)")
       ->type_name("before|during|off")
       ->group("Submeshes");
   constexpr Index kMostFaces = Index{1} << 31U;

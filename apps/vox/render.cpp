@@ -200,24 +200,25 @@ void addPictureOptions(CLI::App& command, Options& options) {
         ->capture_default_str();
   };
   add("--view,--views", options.views,
-      "Where from to look: " + allViewNames() +
-          ", or azimuth and elevation in degrees (0,0 front, 90,0 right); several, with commas, "
-          "make a contact sheet, row by row",
+      "Direction to look from: " + allViewNames() +
+          ", or azimuth and elevation in degrees (0,0 front, 90,0 right). Several views, with "
+          "commas, make a contact sheet, row by row",
       "VIEW");
   add("--up", options.up, "Axis of the world that is up: front is seen along +y (z) or -z (y)",
       "y|z");
-  add("--projection", options.projection, "Parallel sight, or sight from a point",
+  add("--projection", options.projection, "Rays that are parallel, or that start from one point",
       "orthographic|perspective");
   add("--size", options.size, "Width and height of each view, in pixels", "WxH");
   add("--background", options.background, "white, black, grey, transparent or #rrggbb", "COLOR");
   add("--shading", options.shading,
-      "Stored normals, and congradient where there are none (normals); normals estimated from the "
-      "voxels around (congradient); or the sides of voxels (flat). A level set has its own",
+      "Normals to shade with: those of the grid normal, or congradient if there is none (normals); "
+      "estimated from the voxels around (congradient); or those of the sides of voxels (flat). A "
+      "level set always has its own",
       "WHICH");
   add("--samples", options.samples, "N x N rays per pixel", "N")
       ->check(CLI::Range(1, kMostSamples));
   add("--occlusion", options.occlusionRays,
-      "Rays per sample that look for what hides the sky; 0: no ambient occlusion", "N")
+      "Rays per sample that test how much of the sky is hidden; 0: no ambient occlusion", "N")
       ->check(CLI::Range(0, kMostOcclusionRays));
 }
 
@@ -225,7 +226,7 @@ void addGridOptions(CLI::App& command, Options& options) {
   options.gridOptions = {
       command
           .add_option("--grid", options.visible.grid,
-                      "Grid to show (default: mask, density, surface or any other of numbers)")
+                      "Grid to show (default: mask, density, surface or any other grid of numbers)")
           ->type_name("NAME")
           ->group("OpenVDB files"),
       command
@@ -258,7 +259,7 @@ void addMeshOptions(CLI::App& command, Options& options) {
 
 Action addRender(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("render", "Draw a .vdb file, or what a mesh or scene becomes (.png)");
+      app.add_subcommand("render", "Draw a .vdb file, or the voxels of a mesh or scene (.png)");
   const auto options = std::make_shared<Options>();
   command
       ->add_option("INPUT", options->input,

@@ -90,8 +90,8 @@ Action addSubdivide(CLI::App& app) {
   command
       ->add_option(
           "--levels", options->levels,
-          "Doo-Sabin steps; 0 writes the control mesh: the input, its vertices moved where the "
-          "surface is to pass through them")
+          "Doo-Sabin steps; 0 writes the control mesh: the input with its vertices moved where "
+          "--interpolate asks for it")
       ->required()
       ->check(CLI::Range(0, kMostLevels))
       ->type_name("K")

@@ -233,14 +233,14 @@ const std::vector<LintRule>& lintRules() {
       {"background", "a fog volume whose background is not 0"},
       {"not-finite", "NaN or infinite values"},
       {"level-set", "a level set that is not valid (OpenVDB's checkLevelSet)"},
-      {"sdf-as-fog", "signed distances that will be shown as fog"},
+      {"sdf-as-fog", "signed distances that viewers show as fog"},
       {"invisible", "a fog volume without values above 0.001"},
       {"tiles-only", "tiles but no leaves"},
       {"empty", "no active voxels"},
       {"frustum", "a transform that is not linear"},
-      {"name", "names that are missing, doubled or taken"},
-      {"creator", "a creator starting with Houdini, at which Blender turns the object"},
-      {"count", "other voxels than vox convert made"},
+      {"name", "a name that is missing, used twice, or not for Blender or Houdini"},
+      {"creator", "a creator that starts with Houdini: Blender turns the object then"},
+      {"count", "not the number of voxels that vox convert recorded"},
   };
   return rules;
 }
