@@ -100,13 +100,6 @@ TEST_CASE("an object says how it is smoothed", "[scene]") {
   CHECK(first.interpolate == Interpolate::kBoth);
   CHECK(first.interpolatedVertices == std::vector<Index>{2, 0});
   CHECK_FALSE(scene.objects[1].smoothing.boundary.has_value());
-
-  // One choice: whoever names what to interpolate replaces all of it.
-  const SmoothingOptions none = {{}, Interpolate::kNothing, {}};
-  CHECK(overriding(none, first).boundary == BoundaryRule::kFree);
-  CHECK(overriding(none, first).interpolate == Interpolate::kNothing);
-  CHECK_FALSE(overriding(none, first).interpolatedVertices.has_value());
-  CHECK(overriding({}, first).interpolatedVertices == std::vector<Index>{2, 0});
 }
 
 TEST_CASE("the scene and an object say where to stop", "[scene]") {

@@ -10,6 +10,7 @@
 #include "libvox/pipeline/convert.h"
 
 #include <benchmark/benchmark.h>
+#include <openvdb/openvdb.h>
 
 #include <cstring>
 #include <filesystem>

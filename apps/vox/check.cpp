@@ -10,7 +10,8 @@
 #include "libvox/inspect/lint.h"
 #include "libvox/inspect/topology.h"
 #include "libvox/io/read_vdb.h"
-#include "libvox/options/voxelize.h"
+#include "libvox/options/option_text.h"
+#include "libvox/pipeline/request.h"
 
 #include <nlohmann/json.hpp>
 #include <openvdb/openvdb.h>
@@ -95,43 +96,46 @@ std::string metadataOf(const openvdb::GridBase& grid, const std::string& key) {
   return value ? value->str() : std::string();
 }
 
-/// What the file says of how it was made, as far as the command line says nothing.
-/// @throws UsageError  it says there were files that it does not hold
+/// The options that the file was made with; those of the command line win.
+/// @throws InputError  the metadata is damaged, or of another program
+/// @throws UsageError  the file was made with a list of vertices, which it does not hold
 ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const Options& options) {
-  ConvertOptions made;
-  made.smoothing = parseSmoothing(options.smoothing);
-  made.weldTolerance = options.weldTolerance;
-  if (!options.until.empty()) made.until = parseUntil({{options.until}, {}, {}});
-  std::istringstream words(metadataOf(grid, "vox_options"));
-  for (std::string word; words >> word;) {
-    const std::size_t equals = std::min(word.find('='), word.size() - 1);
-    const std::string key = word.substr(0, equals);
-    const std::string value = word.substr(equals + 1);
-    if (key == "boundary" && !made.smoothing.boundary)
-      made.smoothing.boundary = namedIn(kBoundaryRuleNames, value);
-    if (key == "interpolate" && !made.smoothing.interpolate)
-      made.smoothing.interpolate = namedIn(kInterpolateNames, value);
-    if (key == "weld" && !made.weldTolerance) made.weldTolerance = std::stod(value);
-    if (key == "until" && !made.until) made.until = stopRuleNamed(value);
-    if (key == "voxelize") made.voxelize = namedIn(kVoxelizeNames, value);
-    if (key == "target") made.volume.target = namedIn(kTargetNames, value);
-    if (key == "up") made.volume.up = namedIn(kUpAxisNames, value);
-    if (key == "interpolated-vertices" && !made.smoothing.interpolatedVertices)
-      throw UsageError(options.file +
-                       ": was made with --interpolate-vertices; give the same file here");
+  RecordedOptions recorded = parseOptionText(metadataOf(grid, kOptionsMetadata));
+  ConvertOptions& made = recorded.options;
+  const std::string guarantee = metadataOf(grid, kGuaranteeMetadata);
+  if (!guarantee.empty()) made.separation = parseGuarantee(guarantee);
+  const SmoothingOptions given = parseSmoothing(options.smoothing);
+  if (recorded.interpolatedVertices && !given.interpolatedVertices)
+    throw UsageError(options.file +
+                     ": was made with --interpolate-vertices; give the same file here");
+  if (given.boundary) made.smoothing.boundary = given.boundary;
+  if (given.interpolate) made.smoothing.interpolate = given.interpolate;
+  made.smoothing.interpolatedVertices = given.interpolatedVertices;
+  if (options.weldTolerance) made.weldTolerance = options.weldTolerance;
+  if (!options.until.empty()) {
+    made.until = parseUntil({{options.until}, {}, {}});
+    if (!made.until->untilVoxel()) made.voxelize.reset();  // limits leave no choice
   }
-  if (metadataOf(grid, "vox_guarantee") == "26-separating") made.separation = Separation::k26;
   made.run = options.run;
   return made;
+}
+
+/// The same, with the name of the file in messages.
+ConvertOptions optionsOfNamedFile(const openvdb::GridBase& grid, const Options& options) {
+  try {
+    return optionsOfFile(grid, options);
+  } catch (const InputError& wrong) {
+    throw InputError(options.file + ": " + wrong.what());
+  }
 }
 
 void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
                const Options& options, Check& check) {
   if (!grid.transform().isLinear() || !grid.hasUniformVoxels())
     throw InputError(options.file + ": a mesh can be held against voxels that are cubes only");
-  ConvertOptions made = optionsOfFile(grid, options);
-  made.voxelSize = grid.voxelSize().x();
-  check.objects = checkObjects(voxels, readScene(options.mesh), made);
+  const ConvertOptions made = optionsOfNamedFile(grid, options);
+  const Scene scene = readScene(options.mesh);
+  check.objects = checkObjects(voxels, scene, resolve(scene, made), grid.voxelSize().x());
   for (const ObjectCheck& object : check.objects)
     if (object.separation.tunnels > 0)
       check.findings.push_back({kTunnel, check.grid,

@@ -80,10 +80,9 @@ std::string about(double count) {
 }
 
 /// Prints what a conversion would make.
-void printEstimate(const Options& options, const Scene& scene,
-                   const ConvertOptions& convertOptions) {
+void printEstimate(const Options& options, const Scene& scene, const Request& request) {
   std::vector<std::string> warnings;
-  const Estimate made = estimate(scene, convertOptions, warnings);
+  const Estimate made = estimate(scene, request, warnings);
   for (const std::string& warning : warnings) say(options.common, "warning: " + warning);
   if (!made.refusal.empty()) throw LimitError(made.refusal);
   const auto bytes = [](double count) { return formatBytes(static_cast<std::uint64_t>(count)); };
@@ -134,18 +133,14 @@ void shareVoxelSize(const Options& options, const std::vector<Frame>& frames,
   if (!options.report.empty())
     throw UsageError("--report needs a single input, not " + std::to_string(frames.size()));
   Box box;
+  Resolution resolution;  // of the options, else of the first scene that sets one
   for (const Frame& frame : frames) {
     const Scene scene = readScene(frame.input);
     if (!options.dryRun) requireOutputs(options, frame, scene);
-    if (!convertOptions.dim && !convertOptions.voxelSize) {
-      convertOptions.dim = scene.dim;
-      convertOptions.voxelSize = scene.voxelSize;
-    }
+    if (!resolution.isSet()) resolution = resolutionOf(scene, convertOptions);
     box.add(boxOf(scene));
   }
-  if (!convertOptions.voxelSize)
-    convertOptions.voxelSize =
-        transformForDim(box, convertOptions.dim.value_or(kDefaultDim)).voxelSize;
+  convertOptions.voxelSize = transformFor(resolution, box).voxelSize;
   convertOptions.dim.reset();
 }
 
@@ -154,18 +149,19 @@ void runFrame(const Options& options, const Frame& frame, ConvertOptions convert
   const Stopwatch reading;
   const Scene scene = readScene(frame.input);
   const double readSeconds = reading.seconds();
-  if (options.dryRun) return printEstimate(options, scene, convertOptions);
+  if (options.dryRun) return printEstimate(options, scene, resolve(scene, convertOptions));
   requireOutputs(options, frame, scene);
 
   Progress progress(bar.callback());
   convertOptions.run.progress = &progress;
+  const Request request = resolve(scene, convertOptions);
   Conversion& conversion = conversionOfProcess();
   double writeSeconds = 0;
   {
     const CancelOnSignal cancelOnSignal(progress);
     conversion = {};  // the frame before
-    conversion = convert(scene, convertOptions);
-    if (options.verify) verify(conversion, scene, convertOptions);
+    conversion = convert(scene, request);
+    if (options.verify) verify(conversion, scene, request);
     const Stopwatch writing;
     onThreads(options.common.run.threads,
               [&] { write(options, frame.output, conversion, progress); });

@@ -5,6 +5,7 @@
 #include "libvox/inspect/summary.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/scene_file.h"
+#include "libvox/pipeline/request.h"
 #include "libvox/prepare/sound.h"
 
 #include <nlohmann/json.hpp>
@@ -187,9 +188,11 @@ Json describe(const std::string& file, const Options& options) {
     return all;
   }
   const Scene scene = readScene(file);
-  const double weld = options.weldTolerance.value_or(scene.weldTolerance.value_or(0));
-  for (const SceneObject& object : scene.objects)
-    all["meshes"].push_back(describe(object, weld, options.json));
+  PreparationOptions preparation;
+  preparation.weldTolerance = options.weldTolerance;
+  const std::vector<ObjectPreparation> prepared = preparationsOf(scene, preparation);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    all["meshes"].push_back(describe(scene.objects[i], prepared[i].weldTolerance, options.json));
   return all;
 }
 

@@ -24,15 +24,12 @@ inline constexpr NameTable<Interpolate, 4> kInterpolateNames = {
      {Interpolate::kBoundary, "boundary"},
      {Interpolate::kBoth, "both"}}};
 
-/// How to smooth an object, as far as somebody said.
+/// How to smooth an object. What is not set here is taken from elsewhere: request.h tells the
+/// order.
 struct SmoothingOptions {
   std::optional<BoundaryRule> boundary;                    ///< default: kExtend
   std::optional<Interpolate> interpolate;                  ///< default: kNothing
   std::optional<std::vector<Index>> interpolatedVertices;  ///< interior ones, besides `interpolate`
 };
-
-/// What `first` says, and `second` where it is silent. `interpolate` and `interpolatedVertices` are
-/// one choice: whoever makes one of them makes both.
-SmoothingOptions overriding(const SmoothingOptions& first, const SmoothingOptions& second);
 
 }  // namespace vox

@@ -48,7 +48,7 @@ inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxi
 inline constexpr double kDefaultBand = 3;          ///< voxels
 inline constexpr double kDefaultTolerance = 0.05;  ///< voxels
 
-/// How to make volumes, as far as somebody said.
+/// How to make volumes. What is not set here is taken from the scene, then from the default.
 struct VolumeOptions {
   std::optional<Fill> fill;          ///< default: kSurface
   std::optional<double> gain;        ///< value of `density` at its voxels; see densityValue()
@@ -61,13 +61,22 @@ struct VolumeOptions {
   std::optional<UpAxis> up;                ///< default: up as the target has it, so no turning
 };
 
-/// What `first` says, and `second` where it is silent.
-VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second);
+/// The same with defaults applied.
+struct VolumeSettings {
+  Fill fill = Fill::kSurface;
+  OpenMesh openMesh = OpenMesh::kSurface;
+  double band = kDefaultBand;
+  double tolerance = kDefaultTolerance;
+  bool half = false;
+  Target target = Target::kBlender;
+  std::optional<double> gain = {};  ///< empty: what suits target and voxel size, densityValue()
+  std::optional<Compression> compression = {};  ///< empty: as writeVdb() chooses
+};
 
 /// Name of a grid in a file.
-std::string gridNameFor(GridKind kind, const VolumeOptions& options);
+std::string gridNameFor(GridKind kind, Target target);
 
 /// @throws UsageError  a number is out of range
-void requireValid(const VolumeOptions& options);
+void requireValid(const VolumeSettings& settings);
 
 }  // namespace vox

@@ -70,15 +70,15 @@ std::map<int, Batch> batchesOf(std::vector<Part> parts) {
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(std::span<const PreparedSurface> surfaces, const VolumeOptions& options,
+  SurfaceMaker(std::span<const PreparedSurface> surfaces, const VolumeSettings& settings,
                const openvdb::math::Transform& transform, const MemoryBudget& budget,
                const Progress& progress)
       : surfaces_(surfaces),
         transform_(transform),
         budget_(budget),
         progress_(progress),
-        band_(options.band.value_or(kDefaultBand)),
-        tolerance_(options.tolerance.value_or(kDefaultTolerance)) {
+        band_(settings.band),
+        tolerance_(settings.tolerance) {
     for (const PreparedSurface& surface : surfaces)
       components_.push_back(componentsOf(surface.base));
   }
@@ -137,10 +137,10 @@ class SurfaceMaker {
 }  // namespace
 
 openvdb::FloatGrid::Ptr surfaceGrid(std::span<const PreparedSurface> surfaces,
-                                    const VolumeOptions& options,
+                                    const VolumeSettings& settings,
                                     const openvdb::math::Transform& transform, MemoryBudget& budget,
                                     const Progress& progress) {
-  const SurfaceMaker maker(surfaces, options, transform, budget, progress);
+  const SurfaceMaker maker(surfaces, settings, transform, budget, progress);
   openvdb::FloatGrid::Ptr all;
   for (const auto& [number, batch] : batchesOf(maker.parts(true))) {
     const auto grid = maker.make(batch, DistanceTo::kSolid);
@@ -152,7 +152,7 @@ openvdb::FloatGrid::Ptr surfaceGrid(std::span<const PreparedSurface> surfaces,
       openvdb::tools::csgDifference(*all, *grid);
   }
   const Batch open = maker.parts(false);
-  const bool isUnsigned = options.openMesh == OpenMesh::kUnsigned;
+  const bool isUnsigned = settings.openMesh == OpenMesh::kUnsigned;
   if (!open.empty()) {
     const auto grid = maker.make(open, isUnsigned ? DistanceTo::kSurface : DistanceTo::kSheet);
     if (!all)

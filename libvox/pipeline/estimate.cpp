@@ -198,7 +198,7 @@ double bytesOfValues(double leaves, const Measure& m) {
   return leaves * kLeaf + m.lowers * sizeof(FloatLower) + m.uppers * sizeof(FloatUpper);
 }
 
-GridEstimate estimateDensity(const Measure& m, const VolumeOptions& volume) {
+GridEstimate estimateDensity(const Measure& m, const VolumeSettings& volume) {
   GridEstimate grid = estimateMask(m);
   grid.kind = GridKind::kDensity;
   const bool solid = volume.fill == Fill::kSolid;
@@ -209,14 +209,14 @@ GridEstimate estimateDensity(const Measure& m, const VolumeOptions& volume) {
   return grid;
 }
 
-GridEstimate estimateSurface(const Measure& m, const VolumeOptions& volume) {
-  const double band = volume.band.value_or(kDefaultBand);
+GridEstimate estimateSurface(const Measure& m, const VolumeSettings& volume) {
+  const double band = volume.band;
   GridEstimate grid{GridKind::kSurface};
   grid.voxels = 2 * band * m.area;
   grid.leaves = std::max(m.leaves, (8 * m.taxicabArea + 2 * band * m.area) / FloatLeaf::SIZE);
   grid.bytes = bytesOfValues(grid.leaves, m);
   grid.peakBytes = bytesOfDistances(m.area, band).peak + grid.bytes;
-  const double filePerVoxel = volume.half.value_or(false) ? 2.6 : 4.4;
+  const double filePerVoxel = volume.half ? 2.6 : 4.4;
   grid.fileBytes = grid.voxels * filePerVoxel + m.lowers * kFilePerLower + m.uppers * kFilePerUpper;
   return grid;
 }
@@ -247,7 +247,7 @@ double fixedUppers(const Measure& m) {
   return scattered ? m.uppers : std::min(m.uppers, kAroundOrigin);
 }
 
-GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeOptions& volume) {
+GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& volume) {
   switch (kind) {
     case GridKind::kMask:
       return estimateMask(m);
@@ -266,7 +266,7 @@ GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeOptions& vo
 }  // namespace
 
 Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
-                       const VolumeOptions& volume) {
+                       const VolumeSettings& volume) {
   const Measure measure = measureOf(surfaces);
   Estimate all;
   const bool voxels = needsVoxels(kinds);

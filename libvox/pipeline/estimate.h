@@ -46,7 +46,7 @@ inline constexpr double kEstimateFactor = 1.5;
 /// nodes that they meet. Cheap beside the conversion.
 /// @param surfaces  in index space
 Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
-                       const VolumeOptions& volume);
+                       const VolumeSettings& volume);
 
 /// Doo-Sabin steps down to the deepest vertex, about.
 int levelsOf(const PreparedSurface& surface, const SurfaceOptions& options,

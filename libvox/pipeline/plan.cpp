@@ -5,7 +5,6 @@
 #include "libvox/core/progress.h"
 #include "libvox/mesh/area.h"
 #include "libvox/pipeline/grids.h"
-#include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/work.h"
 
 namespace vox {
@@ -40,15 +39,15 @@ std::vector<double> areasOf(const Scene& scene, const GridTransform& transform,
   return areas;
 }
 
-void plan(const Scene& scene, const ConvertOptions& options, std::span<const double> areas,
-          std::span<const GridKind> kinds, Progress& progress) {
+void plan(const Scene& scene, const Request& request, std::span<const double> areas,
+          Progress& progress) {
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    const SceneObject& object = scene.objects[i];
-    progress.plan(workOfPreparing(object, options.smoothing) +
-                  workOfSurface(areas[i], object.mesh.cornerCount()));
-    for (const GridKind kind : kinds) progress.plan(workOfWriting(kind, areas[i]));
+    const PolygonMesh& mesh = scene.objects[i].mesh;
+    progress.plan(workOfPreparing(mesh, request.objects[i].preparation.interpolates()) +
+                  workOfSurface(areas[i], mesh.cornerCount()));
+    for (const GridKind kind : request.grids) progress.plan(workOfWriting(kind, areas[i]));
   }
-  progress.plan(workOfGrids(areas, kinds));
+  progress.plan(workOfGrids(areas, request.grids));
 }
 
 }  // namespace vox

@@ -40,30 +40,15 @@ struct VertexOrigin {
   std::vector<Index> of;        ///< per prepared vertex: a vertex of the input
 };
 
-void requireConsistent(const Scene& scene, const SceneObject& object,
-                       const SmoothingOptions& smoothing, const SmoothingOptions& own) {
-  const bool boundary =
-      own.interpolate == Interpolate::kBoundary || own.interpolate == Interpolate::kBoth;
-  if (boundary && own.boundary == BoundaryRule::kFree)
-    throw UsageError(object.name +
-                     ": a free boundary cannot be interpolated; use --boundary extend, or "
-                     "--interpolate none or interior");
-  if (smoothing.interpolatedVertices && scene.objects.size() > 1)
-    throw UsageError("--interpolate-vertices needs a scene of one object, not " +
-                     std::to_string(scene.objects.size()) +
-                     "; use interpolate_vertices in the scene");
-}
-
-/// The mesh of an object made sound, with one line of what had to be done for it.
-PolygonMesh soundMeshOf(const Scene& scene, const SceneObject& object,
-                        const PreparationOptions& options, VertexOrigin& origin,
-                        std::vector<std::string>& warnings) {
+/// The mesh of an object made sound; a warning tells what was done to it.
+PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
+                        VertexOrigin& origin, std::vector<std::string>& warnings) {
   RepairOptions repair;
-  repair.weldTolerance = options.weldTolerance.value_or(scene.weldTolerance.value_or(0));
+  repair.weldTolerance = preparation.weldTolerance;
   SoundReport report;
   PolygonMesh mesh = soundMesh(object.mesh, repair, report);
   const std::string done = summary(report);
-  if (options.strict.value_or(scene.strict.value_or(false)) && !done.empty())
+  if (preparation.strict && !done.empty())
     throw MeshError("needs repair, which strict forbids: " + firstAction(report) +
                     "; in all: " + done);
   if (mesh.faceCount() == 0) throw MeshError("nothing is left after repair: " + done);
@@ -98,12 +83,6 @@ std::vector<Index> verticesFrom(std::span<const Index> inputVertices, const Vert
   return found;
 }
 
-/// Whether an object interpolates anything, by its own smoothing.
-bool interpolates(const SmoothingOptions& own) {
-  return own.interpolate.value_or(Interpolate::kNothing) != Interpolate::kNothing ||
-         (own.interpolatedVertices && !own.interpolatedVertices->empty());
-}
-
 /// Peak of interpolation: an image per corner, and the vectors of the solver.
 std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
   constexpr std::uint64_t kPerCorner = sizeof(Vec3d) + sizeof(Index);
@@ -132,30 +111,31 @@ struct RefineWork {
   double prepare;
   double subdivide;
   double write;
-  RefineWork(const SceneObject& object, int levels, const SmoothingOptions& smoothing)
-      : prepare(workOfPreparing(object, smoothing)),
-        subdivide(kPerCorner * object.mesh.cornerCount() * std::ldexp(1.0, 2 * levels)),
-        write(kWritingPerCorner * object.mesh.cornerCount() * std::ldexp(1.0, 2 * levels)) {}
+  RefineWork(const PolygonMesh& mesh, int levels, bool interpolates)
+      : prepare(workOfPreparing(mesh, interpolates)),
+        subdivide(kPerCorner * mesh.cornerCount() * std::ldexp(1.0, 2 * levels)),
+        write(kWritingPerCorner * mesh.cornerCount() * std::ldexp(1.0, 2 * levels)) {}
 
  private:
   static constexpr double kPerCorner = 50;
   static constexpr double kWritingPerCorner = 200;
 };
 
-Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& preparation,
-                     const RunOptions& run, Progress& progress) {
-  for (const SceneObject& object : scene.objects) {
-    const RefineWork work(object, levels, preparation.smoothing);
-    progress.plan(work.prepare + work.subdivide + work.write);
+Refinement refineAll(const Scene& scene, int levels,
+                     std::span<const ObjectPreparation> preparations, MemoryBudget budget,
+                     Progress& progress) {
+  std::vector<RefineWork> works;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    works.emplace_back(scene.objects[i].mesh, levels, preparations[i].interpolates());
+    progress.plan(works[i].prepare + works[i].subdivide + works[i].write);
   }
-  MemoryBudget budget(run.maxMemory);
   Refinement all;
-  for (const SceneObject& object : scene.objects) {
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
     budget.take(bytesOf(object.mesh), "the input", kAdvice);
-    const RefineWork work(object, levels, preparation.smoothing);
-    progress.begin("prepare", work.prepare);
-    PreparedObject prepared = prepare(scene, object, preparation, budget, progress);
-    progress.begin("subdivide", work.subdivide);
+    progress.begin("prepare", works[i].prepare);
+    PreparedObject prepared = prepare(scene, object, preparations[i], budget, progress);
+    progress.begin("subdivide", works[i].subdivide);
     PolygonMesh part = subdividedWithin(budget, std::move(prepared.base), levels, progress).mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
@@ -166,10 +146,6 @@ Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& p
 }
 
 }  // namespace
-
-double workOfPreparing(const SceneObject& object, const SmoothingOptions& said) {
-  return workOfPreparing(object.mesh, interpolates(overriding(said, object.smoothing)));
-}
 
 std::uint64_t bytesOf(const PolygonMesh& mesh) {
   return mesh.points.size() * sizeof(Vec3d) +
@@ -210,10 +186,8 @@ void requireValidScene(const Scene& scene) {
 }
 
 PreparedObject prepare(const Scene& scene, const SceneObject& object,
-                       const PreparationOptions& options, const MemoryBudget& budget,
+                       const ObjectPreparation& preparation, const MemoryBudget& budget,
                        Progress& progress) {
-  const SmoothingOptions own = overriding(options.smoothing, object.smoothing);
-  requireConsistent(scene, object, options.smoothing, own);
   constexpr std::uint64_t kPerCorner = 4 * sizeof(EdgeCorner) + 12 * sizeof(Index);
   budget.require(bytesOf(object.mesh) + object.mesh.cornerCount() * kPerCorner,
                  "finding neighbours", "raise --max-memory");
@@ -221,18 +195,17 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
   SubdivisionLevel& base = prepared.base;
   namingObject(scene, object, [&] {
     VertexOrigin origin;
-    PolygonMesh mesh = soundMeshOf(scene, object, options, origin, prepared.warnings);
+    PolygonMesh mesh = soundMeshOf(object, preparation, origin, prepared.warnings);
     progress.check();
-    base = baseLevel(std::move(mesh), own.boundary.value_or(BoundaryRule::kExtend));
+    base = baseLevel(std::move(mesh), preparation.boundary);
     progress.check();
-    if (!interpolates(own)) return;
+    if (!preparation.interpolates()) return;
     progress.done(kPartBeforeInterpolation);
     budget.require(bytesOf(base) + bytesOfInterpolation(base.mesh), "interpolation",
                    "raise --max-memory");
-    base.mesh = interpolate(
-        std::move(base.mesh), base.adjacency, own.interpolate.value_or(Interpolate::kNothing),
-        verticesFrom(own.interpolatedVertices.value_or(std::vector<Index>()), origin),
-        prepared.interpolation);
+    base.mesh =
+        interpolate(std::move(base.mesh), base.adjacency, preparation.interpolate,
+                    verticesFrom(preparation.interpolatedVertices, origin), prepared.interpolation);
   });
   return prepared;
 }
@@ -240,11 +213,14 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
 Refinement refine(const Scene& scene, int levels, const PreparationOptions& preparation,
                   const RunOptions& run) {
   if (levels < 0) throw UsageError("--levels must be 0 or more, not " + std::to_string(levels));
+  requirePreparable(scene, preparation);
   requireValidScene(scene);
+  const std::vector<ObjectPreparation> preparations = preparationsOf(scene, preparation);
   Progress unwatched;
   Progress& progress = run.progress != nullptr ? *run.progress : unwatched;
-  return onThreads(run.threads,
-                   [&] { return refineAll(scene, levels, preparation, run, progress); });
+  return onThreads(run.threads, [&] {
+    return refineAll(scene, levels, preparations, MemoryBudget(run.maxMemory), progress);
+  });
 }
 
 }  // namespace vox
