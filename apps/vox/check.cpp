@@ -253,37 +253,36 @@ std::string footer() {
 }  // namespace
 
 Action addCheck(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "check", "Look for faults in a .vdb file: tunnels, leaks, what viewers will not show");
+  const Command command(
+      app, "check", "Look for faults in a .vdb file: tunnels, leaks, what viewers will not show");
   const auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->file, "OpenVDB file (.vdb) of any program")->required();
+  command.add("FILE", options->file, "OpenVDB file (.vdb) of any program").required();
   command
-      ->add_option("--mesh", options->mesh,
-                   "Scene or mesh the file was made from: its surface must have no tunnels")
-      ->type_name("INPUT")
-      ->group("Surface");
+      .add("--mesh", options->mesh,
+           "Scene or mesh the file was made from: its surface must have no tunnels")
+      .type("INPUT")
+      .group("Surface");
   command
-      ->add_option("--grid", options->grid,
-                   "Grid whose active voxels are the surface (default: mask, or density)")
-      ->type_name("NAME")
-      ->group("Surface");
-  addSmoothingOptions(*command, options->smoothing);
+      .add("--grid", options->grid,
+           "Grid whose active voxels are the surface (default: mask, or density)")
+      .type("NAME")
+      .group("Surface");
+  addSmoothingOptions(command, options->smoothing);
   command
-      ->add_option("--until", options->until,
-                   "As the file was made; this and the other options of vox convert are taken from "
-                   "its metadata where they are not given")
-      ->type_name("voxel|levels=K")
-      ->group("Surface");
-  addWeldOption(*command, options->weldTolerance);
-  command
-      ->add_option("--ignore", options->ignore, "Faults that do not count, with commas: see below")
-      ->type_name("LIST")
-      ->group("Output");
-  command->add_flag("--json", options->json, "Print JSON")->group("Output");
-  command->add_flag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
-      ->group("Output");
-  addRunOptions(*command, options->run);
-  command->footer(footer());
+      .add("--until", options->until,
+           "As the file was made; this and the other options of vox convert are taken from "
+           "its metadata where they are not given")
+      .type("voxel|levels=K")
+      .group("Surface");
+  addWeldOption(command, options->weldTolerance);
+  command.add("--ignore", options->ignore, "Faults that do not count, with commas: see below")
+      .type("LIST")
+      .group("Output");
+  command.addFlag("--json", options->json, "Print JSON").group("Output");
+  command.addFlag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
+      .group("Output");
+  addRunOptions(command, options->run);
+  command.footer(footer());
   return [options] { return run(*options); };
 }
 

@@ -187,55 +187,54 @@ int run(const Options& options) {
 }  // namespace
 
 Action addConvert(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("convert", "Convert a mesh or scene into a smooth voxel model (.vdb)");
+  const Command command(app, "convert", "Convert a mesh or scene into a smooth voxel model (.vdb)");
   const auto options = std::make_shared<Options>();
   command
-      ->add_option("INPUT", options->inputs,
-                   "Scene (.toml) or mesh (.obj .ply .off .stl .om); several of them, or a pattern "
-                   "such as mesh.####.obj, become a sequence out.####.vdb with one voxel size")
-      ->required()
-      ->type_name("");
-  command->add_option("-o,--output", options->output, "OpenVDB file to write; - for stdout")
-      ->type_name("OUT.vdb")
-      ->group("Output");
-  addResolutionOptions(*command, options->conversion.resolution);
-  addSmoothingOptions(*command, options->conversion.smoothing);
-  addVoxelizationOptions(*command, options->conversion.voxelization);
-  addWeldOption(*command, options->conversion.weldTolerance);
-  addStrictOption(*command, options->conversion.strict);
+      .add("INPUT", options->inputs,
+           "Scene (.toml) or mesh (.obj .ply .off .stl .om); several of them, or a pattern "
+           "such as mesh.####.obj, become a sequence out.####.vdb with one voxel size")
+      .required()
+      .type("");
+  command.add("-o,--output", options->output, "OpenVDB file to write; - for stdout")
+      .type("OUT.vdb")
+      .group("Output");
+  addResolutionOptions(command, options->conversion.resolution);
+  addSmoothingOptions(command, options->conversion.smoothing);
+  addVoxelizationOptions(command, options->conversion.voxelization);
+  addWeldOption(command, options->conversion.weldTolerance);
+  addStrictOption(command, options->conversion.strict);
   command
-      ->add_option("--grids", options->grids,
-                   "Grids to write, with commas: " + allNamesIn(kGridNames) +
-                       " (default: the scene's, or density)")
-      ->type_name("LIST")
-      ->group("Output");
+      .add("--grids", options->grids,
+           "Grids to write, with commas: " + allNamesIn(kGridNames) +
+               " (default: the scene's, or density)")
+      .type("LIST")
+      .group("Output");
   command
-      ->add_option("--texture", options->conversion.texture,
-                   "Solid texture of all objects, in the grid color: " + allTextureNames() +
-                       "; with parameters: marble:scale=0.2,seed=3 (default: the scene's textures, "
-                       "or the colours of the meshes)")
-      ->type_name("KIND[:KEY=VALUE,...]")
-      ->group("Output");
-  addVolumeOptions(*command, options->volume);
-  addFileOptions(*command, options->volume);
-  addSubmeshOptions(*command, options->conversion.submeshes);
+      .add("--texture", options->conversion.texture,
+           "Solid texture of all objects, in the grid color: " + allTextureNames() +
+               "; with parameters: marble:scale=0.2,seed=3 (default: the scene's textures, "
+               "or the colours of the meshes)")
+      .type("KIND[:KEY=VALUE,...]")
+      .group("Output");
+  addVolumeOptions(command, options->volume);
+  addFileOptions(command, options->volume);
+  addSubmeshOptions(command, options->conversion.submeshes);
   command
-      ->add_option("--report", options->report,
-                   "Write times, counts and memory of each stage and object to a file, as JSON")
-      ->type_name("FILE.json")
-      ->group("Output");
+      .add("--report", options->report,
+           "Write times, counts and memory of each stage and object to a file, as JSON")
+      .type("FILE.json")
+      .group("Output");
   command
-      ->add_flag("--verify", options->verify,
-                 "Check the voxels against the surface, as vox check --mesh does, before the file "
-                 "is written; exit code 1 if they fail")
-      ->group("Output");
+      .addFlag("--verify", options->verify,
+               "Check the voxels against the surface, as vox check --mesh does, before the file "
+               "is written; exit code 1 if they fail")
+      .group("Output");
   command
-      ->add_flag("--dry-run", options->dryRun,
-                 "Print voxels, memory, levels and file size to expect, to within a factor of 1.5 "
-                 "or so, and write nothing")
-      ->group("Run");
-  addCommonOptions(*command, options->common);
+      .addFlag("--dry-run", options->dryRun,
+               "Print voxels, memory, levels and file size to expect, to within a factor of 1.5 "
+               "or so, and write nothing")
+      .group("Run");
+  addCommonOptions(command, options->common);
   return [options] { return run(*options); };
 }
 

@@ -7,7 +7,6 @@
 #include "libvox/options/voxelize.h"
 
 #include <nlohmann/json.hpp>
-#include <openvdb/openvdb.h>
 
 #include <sstream>
 
@@ -44,12 +43,6 @@ Json toJson(const ObjectReport& object) {
             {"interior_vertices", interpolation.lift.vertices},
             {"iterations", interpolation.lift.iterations},
             {"residual", interpolation.lift.residual}}}};
-}
-
-Json gridNames(const FinishedRun& run) {
-  Json names = Json::array();
-  for (const auto& grid : run.conversion.grids) names.push_back(grid->getName());
-  return names;
 }
 
 template <class Value>
@@ -91,7 +84,7 @@ Json optionsJson(const FinishedRun& run) {
       {"until", options.until ? Json(stopRuleName(*options.until)) : Json()},
       {"voxelize", options.voxelize ? Json(nameIn(kVoxelizeNames, *options.voxelize)) : Json()},
       {"separating", options.separation == Separation::k26 ? 26 : 6},
-      {"grids", options.grids ? gridNames(run) : Json()},
+      {"grids", options.grids ? Json(namesOf(run.conversion)) : Json()},
       {"texture", options.texture ? Json(textureText(*options.texture)) : Json()},
       {"localize", nameIn(kLocalizeNames, options.surface.localize)},
       {"submesh_faces", options.surface.submeshFaces},
@@ -103,7 +96,9 @@ Json optionsJson(const FinishedRun& run) {
 
 Json memoryJson(const Conversion& conversion) {
   Json grids = Json::object();
-  for (const auto& grid : conversion.grids) grids[grid->getName()] = grid->memUsage();
+  const std::vector<std::string> names = namesOf(conversion);
+  const std::vector<std::uint64_t> bytes = memoryOf(conversion);
+  for (std::size_t i = 0; i < names.size(); ++i) grids[names[i]] = bytes[i];
   return {{"peak_resident_bytes", peakMemory()}, {"grid_bytes", grids}};
 }
 
@@ -154,7 +149,7 @@ std::string reportJson(const FinishedRun& run) {
                      {"options", optionsJson(run)},
                      {"threads", report.threads},
                      {"voxel_size", report.voxelSize},
-                     {"grids", gridNames(run)},
+                     {"grids", namesOf(run.conversion)},
                      {"active_voxels", report.activeVoxels},
                      {"objects", objects},
                      {"seconds",
@@ -183,8 +178,10 @@ std::vector<std::string> reportLines(const FinishedRun& run) {
         << run.writeSeconds;
   lines.push_back(times.str());
   std::string memory = "memory: peak " + formatBytes(peakMemory());
-  for (const auto& grid : run.conversion.grids)
-    memory += ", " + grid->getName() + " " + formatBytes(grid->memUsage());
+  const std::vector<std::string> names = namesOf(run.conversion);
+  const std::vector<std::uint64_t> bytes = memoryOf(run.conversion);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    memory += ", " + names[i] + " " + formatBytes(bytes[i]);
   lines.push_back(memory);
   return lines;
 }

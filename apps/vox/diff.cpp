@@ -171,36 +171,36 @@ int run(Options options) {
 }  // namespace
 
 Action addDiff(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("diff", "Compare two .vdb files");
+  const Command command(app, "diff", "Compare two .vdb files");
   const auto options = std::make_shared<Options>();
-  command->add_option("A", options->a, "OpenVDB file")->required();
-  command->add_option("B", options->b, "OpenVDB file to compare it with")->required();
+  command.add("A", options->a, "OpenVDB file").required();
+  command.add("B", options->b, "OpenVDB file to compare it with").required();
   command
-      ->add_option("--tolerance", options->diff.absoluteTolerance,
-                   "Values may differ by this much (default: 0)")
-      ->type_name("T")
-      ->group("Comparison");
+      .add("--tolerance", options->diff.absoluteTolerance,
+           "Values may differ by this much (default: 0)")
+      .type("T")
+      .group("Comparison");
   command
-      ->add_option("--relative", options->diff.relativeTolerance,
-                   "... and by this part of the larger one besides (default: 0)")
-      ->type_name("R")
-      ->group("Comparison");
-  command->add_option("--grids", options->grids, "Compare these only, with commas (default: all)")
-      ->type_name("LIST")
-      ->group("Comparison");
-  command->add_flag("--no-metadata", options->noMetadata, "Do not compare metadata")
-      ->group("Comparison");
+      .add("--relative", options->diff.relativeTolerance,
+           "... and by this part of the larger one besides (default: 0)")
+      .type("R")
+      .group("Comparison");
+  command.add("--grids", options->grids, "Compare these only, with commas (default: all)")
+      .type("LIST")
+      .group("Comparison");
+  command.addFlag("--no-metadata", options->noMetadata, "Do not compare metadata")
+      .group("Comparison");
   command
-      ->add_option("-o,--output", options->output,
-                   "Write what differs as grids: NAME_only_a, NAME_only_b, NAME_difference")
-      ->type_name("OUT.vdb")
-      ->group("Output");
-  command->add_flag("-f,--force", options->force, "Overwrite an existing output file")
-      ->group("Output");
-  command->add_flag("--json", options->json, "Print JSON")->group("Output");
-  command->add_flag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
-      ->group("Output");
-  command->footer("Exit code 0: the same; 1: different.");
+      .add("-o,--output", options->output,
+           "Write what differs as grids: NAME_only_a, NAME_only_b, NAME_difference")
+      .type("OUT.vdb")
+      .group("Output");
+  command.addFlag("-f,--force", options->force, "Overwrite an existing output file")
+      .group("Output");
+  command.addFlag("--json", options->json, "Print JSON").group("Output");
+  command.addFlag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
+      .group("Output");
+  command.footer("Exit code 0: the same; 1: different.");
   return [options] { return run(*options); };
 }
 

@@ -206,12 +206,11 @@ int run(const Options& options) {
 }  // namespace
 
 Action addInfo(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("info", "Print what is in meshes, scenes and .vdb files");
+  const Command command(app, "info", "Print what is in meshes, scenes and .vdb files");
   const auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)")
-      ->required();
-  command->add_flag("--json", options->json, "Print JSON");
-  addWeldOption(*command, options->weldTolerance);
+  command.add("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)").required();
+  command.addFlag("--json", options->json, "Print JSON");
+  addWeldOption(command, options->weldTolerance);
   return [options] { return run(*options); };
 }
 

@@ -39,7 +39,7 @@ std::uint64_t parseBytes(const std::string& text) {
   const bool known = unit.size() <= 1 && power != std::string_view::npos;
   const double bytes = known ? value * std::pow(1024.0, static_cast<double>(power)) : -1;
   if (used == 0 || !(bytes >= 1) || bytes > 1e18)
-    throw CLI::ValidationError("--max-memory", "must be a size such as 512M or 8G, not " + text);
+    throw UsageError("--max-memory: must be a size such as 512M or 8G, not " + text);
   return static_cast<std::uint64_t>(bytes);
 }
 
@@ -57,66 +57,64 @@ std::optional<Enum> parseNamed(const char* option, const NameTable<Enum, N>& nam
 
 }  // namespace
 
-void addRunOptions(CLI::App& command, RunOptions& run) {
+void addRunOptions(const Command& command, RunOptions& run) {
   constexpr int kMostThreads = 1024;
-  command.add_option("--threads", run.threads, "Threads to use (default: all processors)")
-      ->check(CLI::Range(1, kMostThreads))
-      ->type_name("N")
-      ->group("Run");
+  command.add("--threads", run.threads, "Threads to use (default: all processors)")
+      .range(1, kMostThreads)
+      .type("N")
+      .group("Run");
   command
-      .add_option_function<std::string>(
+      .add(
           "--max-memory", [&run](const std::string& text) { run.maxMemory = parseBytes(text); },
           "Memory for meshes and grids, such as 512M or 8G (default: three quarters of what is "
           "available)")
-      ->type_name("SIZE")
-      ->group("Run");
+      .type("SIZE")
+      .group("Run");
 }
 
-void addCommonOptions(CLI::App& command, CommonOptions& common) {
+void addCommonOptions(const Command& command, CommonOptions& common) {
   addRunOptions(command, common.run);
-  command.add_flag("-f,--force", common.force, "Overwrite an existing output file")->group("Run");
-  command.add_flag("-q,--quiet", common.quiet, "Print errors only")->group("Run");
-  command.add_flag("-v,--verbose", common.verbose, "Print what was done to each object, and times")
-      ->group("Run");
+  command.addFlag("-f,--force", common.force, "Overwrite an existing output file").group("Run");
+  command.addFlag("-q,--quiet", common.quiet, "Print errors only").group("Run");
+  command.addFlag("-v,--verbose", common.verbose, "Print what was done to each object, and times")
+      .group("Run");
 }
 
-void addResolutionOptions(CLI::App& command, ResolutionOptions& resolution) {
-  auto* dim = command
-                  .add_option_function<int>(
-                      "--dim", [&resolution](int n) { resolution.dim = n; },
-                      "Voxels along the longest side of the input (default: the scene's, or 256)")
-                  ->check(CLI::Range(1, std::numeric_limits<int>::max()))
-                  ->type_name("N")
-                  ->group("Resolution");
+void addResolutionOptions(const Command& command, ResolutionOptions& resolution) {
+  const Option dim =
+      command
+          .add("--dim", resolution.dim,
+               "Voxels along the longest side of the input (default: the scene's, or 256)")
+          .range(1, std::numeric_limits<int>::max())
+          .type("N")
+          .group("Resolution");
   command
-      .add_option_function<double>(
-          "--voxel-size", [&resolution](double size) { resolution.voxelSize = size; },
-          "Edge length of a voxel in world units, instead of --dim")
-      ->excludes(dim)
-      ->type_name("S")
-      ->group("Resolution");
+      .add("--voxel-size", resolution.voxelSize,
+           "Edge length of a voxel in world units, instead of --dim")
+      .excludes(dim)
+      .type("S")
+      .group("Resolution");
 }
 
-void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments) {
+void addSmoothingOptions(const Command& command, SmoothingArguments& arguments) {
   command
-      .add_option("--boundary", arguments.boundary,
-                  "End an open surface at a smooth curve along its boundary (extend), or let it "
-                  "shrink from there (free) (default: the scene's, or extend)")
-      ->type_name("extend|free")
-      ->group("Smoothing");
+      .add("--boundary", arguments.boundary,
+           "End an open surface at a smooth curve along its boundary (extend), or let it "
+           "shrink from there (free) (default: the scene's, or extend)")
+      .type("extend|free")
+      .group("Smoothing");
   command
-      .add_option("--interpolate", arguments.interpolate,
-                  "Vertices that the surface passes through: none, interior, boundary or both "
-                  "(default: the scene's, or none)")
-      ->type_name("WHICH")
-      ->group("Smoothing");
+      .add("--interpolate", arguments.interpolate,
+           "Vertices that the surface passes through: none, interior, boundary or both "
+           "(default: the scene's, or none)")
+      .type("WHICH")
+      .group("Smoothing");
   command
-      .add_option(
-          "--interpolate-vertices", arguments.vertexFile,
-          "Text file of further interior vertices to pass through, counted from 0; # starts "
-          "a comment")
-      ->type_name("FILE")
-      ->group("Smoothing");
+      .add("--interpolate-vertices", arguments.vertexFile,
+           "Text file of further interior vertices to pass through, counted from 0; # starts "
+           "a comment")
+      .type("FILE")
+      .group("Smoothing");
 }
 
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
@@ -128,32 +126,29 @@ SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   return smoothing;
 }
 
-void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments) {
+void addVoxelizationOptions(const Command& command, VoxelizationArguments& arguments) {
   command
-      .add_option(
+      .addRepeatable(
           "--until", arguments.until,
           "Subdivide down to the size of a voxel (voxel), or scan-convert polygons once they "
           "keep one of some limits: levels=K steps (0: the polygons of the input), faces of "
           "diameter=D voxels, angle=DEG between adjacent ones, within flatness=D voxels of "
           "the smooth surface (default: the scene's, or voxel)")
-      ->type_name("voxel|levels=K|diameter=D|angle=DEG|flatness=D")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false)
-      ->group("Voxels");
+      .type("voxel|levels=K|diameter=D|angle=DEG|flatness=D")
+      .group("Voxels");
   command
-      .add_option(
-          "--voxelize", arguments.voxelize,
-          "How the surface becomes voxels: by its vertices (vertex; needs --until voxel), by "
-          "scanning polygons (polygon), or by vertices where these can do it (auto) (default: the "
-          "scene's, or auto)")
-      ->type_name("auto|vertex|polygon")
-      ->group("Voxels");
+      .add("--voxelize", arguments.voxelize,
+           "How the surface becomes voxels: by its vertices (vertex; needs --until voxel), by "
+           "scanning polygons (polygon), or by vertices where these can do it (auto) (default: the "
+           "scene's, or auto)")
+      .type("auto|vertex|polygon")
+      .group("Voxels");
   command
-      .add_option("--separating", arguments.separating,
-                  "Paths of white voxels that the surface stops: those through faces (6), or those "
-                  "through edges and corners too (26) (default: 6)")
-      ->type_name("6|26")
-      ->group("Voxels");
+      .add("--separating", arguments.separating,
+           "Paths of white voxels that the surface stops: those through faces (6), or those "
+           "through edges and corners too (26) (default: 6)")
+      .type("6|26")
+      .group("Voxels");
 }
 
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments) {
@@ -172,69 +167,65 @@ Separation parseSeparation(const VoxelizationArguments& arguments) {
   throw UsageError("--separating must be 6 or 26, not '" + arguments.separating + "'");
 }
 
-void addVolumeOptions(CLI::App& command, VolumeArguments& arguments) {
+void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
   command
-      .add_option("--fill", arguments.fill,
-                  "What density holds: the voxels of the surface (surface), or all that they "
-                  "enclose, too (solid) (default: the scene's, or surface)")
-      ->type_name("surface|solid")
-      ->group("Output");
+      .add("--fill", arguments.fill,
+           "What density holds: the voxels of the surface (surface), or all that they "
+           "enclose, too (solid) (default: the scene's, or surface)")
+      .type("surface|solid")
+      .group("Output");
   command
-      .add_option_function<double>(
-          "--gain", [&arguments](double gain) { arguments.gain = gain; },
-          "Value of density (default: the scene's, or for Blender 6 / voxel size, at least 1, "
-          "which "
-          "makes a surface opaque there; for Houdini 1)")
-      ->type_name("G")
-      ->group("Output");
+      .add("--gain", arguments.gain,
+           "Value of density (default: the scene's, or for Blender 6 / voxel size, at least 1, "
+           "which "
+           "makes a surface opaque there; for Houdini 1)")
+      .type("G")
+      .group("Output");
   command
-      .add_option(
-          "--open-mesh", arguments.openMesh,
-          "Where an inside is asked for, a component that has none is an error; or stays a "
-          "surface, in the grid surface a sheet one voxel thick; or gives distances without "
-          "sign there (default: the scene's, or surface)")
-      ->type_name("error|surface|unsigned")
-      ->group("Output");
+      .add("--open-mesh", arguments.openMesh,
+           "Where an inside is asked for, a component that has none is an error; or stays a "
+           "surface, in the grid surface a sheet one voxel thick; or gives distances without "
+           "sign there (default: the scene's, or surface)")
+      .type("error|surface|unsigned")
+      .group("Output");
   command
-      .add_option_function<double>(
-          "--band", [&arguments](double band) { arguments.band = band; },
-          "Half width of the grid surface, in voxels (default: the scene's, or 3)")
-      ->type_name("W")
-      ->group("Output");
+      .add("--band", arguments.band,
+           "Half width of the grid surface, in voxels (default: the scene's, or 3)")
+      .type("W")
+      .group("Output");
   command
-      .add_option_function<double>(
-          "--tolerance", [&arguments](double distance) { arguments.tolerance = distance; },
+      .add(
+          "--tolerance", arguments.tolerance,
           "How far the polygons that the grid surface is made from may lie off the smooth surface, "
           "in voxels (default: the scene's, or 0.05)")
-      ->type_name("T")
-      ->group("Output");
+      .type("T")
+      .group("Output");
 }
 
-void addFileOptions(CLI::App& command, VolumeArguments& arguments) {
+void addFileOptions(const Command& command, VolumeArguments& arguments) {
   command
-      .add_flag_function(
-          "--half", [&arguments](std::int64_t count) { arguments.half = count > 0; },
-          "Write values as floats of 16 bits (default: the scene's, or 32 bits)")
-      ->group("Output");
+      .addFlag("--half", arguments.half,
+               "Write values as floats of 16 bits (default: the scene's, or 32 bits)")
+      .group("Output");
   command
-      .add_option("--compression", arguments.compression,
-                  "How values are packed: blosc is fast, zip slow, both without loss (default: the "
-                  "scene's, or blosc)")
-      ->type_name("blosc|zip|none")
-      ->group("Output");
+      .add("--compression", arguments.compression,
+           "How values are packed: blosc is fast, zip slow, both without loss (default: the "
+           "scene's, or blosc)")
+      .type("blosc|zip|none")
+      .group("Output");
   command
-      .add_option("--target", arguments.target,
-                  "The program that will read the file: decides names of grids and which way is "
-                  "up; blender-3.4 moves grids by the half voxel that this version is off "
-                  "(default: the scene's, or blender)")
-      ->type_name("blender|blender-3.4|houdini")
-      ->group("Output");
+      .add("--target", arguments.target,
+           "The program that will read the file: decides names of grids and which way is "
+           "up; blender-3.4 moves grids by the half voxel that this version is off "
+           "(default: the scene's, or blender)")
+      .type("blender|blender-3.4|houdini")
+      .group("Output");
   command
-      .add_option("--up", arguments.up,
-                  "The axis of the input that points up: turned to where the target has it, z in "
-                  "Blender, y in Houdini (default: the scene's, or nothing is turned)")
-      ->type_name("y|z")
-      ->group("Output");
+      .add("--up", arguments.up,
+           "The axis of the input that points up: turned to where the target has it, z in "
+           "Blender, y in Houdini (default: the scene's, or nothing is turned)")
+      .type("y|z")
+      .group("Output");
 }
 
 VolumeOptions parseVolume(const VolumeArguments& arguments) {
@@ -251,41 +242,38 @@ VolumeOptions parseVolume(const VolumeArguments& arguments) {
   return volume;
 }
 
-void addWeldOption(CLI::App& command, std::optional<double>& tolerance) {
+void addWeldOption(const Command& command, std::optional<double>& tolerance) {
   command
-      .add_option_function<double>(
-          "--weld", [&tolerance](double distance) { tolerance = distance; },
-          "Join vertices up to this far apart, in world units (default: the scene's, or 0: those "
-          "at exactly the same place)")
-      ->type_name("TOL")
-      ->group("Repair");
+      .add("--weld", tolerance,
+           "Join vertices up to this far apart, in world units (default: the scene's, or 0: those "
+           "at exactly the same place)")
+      .type("TOL")
+      .group("Repair");
 }
 
-void addStrictOption(CLI::App& command, std::optional<bool>& strict) {
+void addStrictOption(const Command& command, std::optional<bool>& strict) {
   command
-      .add_flag_function(
-          "--strict", [&strict](std::int64_t count) { strict = count > 0; },
-          "Refuse a mesh that needs any repair or turning of faces (default: the scene's, or "
-          "repair it and say what was done)")
-      ->group("Repair");
+      .addFlag("--strict", strict,
+               "Refuse a mesh that needs any repair or turning of faces (default: the scene's, or "
+               "repair it and say what was done)")
+      .group("Repair");
 }
 
-void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments) {
+void addSubmeshOptions(const Command& command, SubmeshArguments& arguments) {
   command
-      .add_option(
-          "--localize", arguments.localize,
-          "Cut the mesh into submeshes, a task each (before); split their large patches into "
-          "further tasks, too (during, the default); or subdivide the whole mesh level by "
-          "level, slow and large, for comparison (off)")
-      ->type_name("before|during|off")
-      ->group("Submeshes");
+      .add("--localize", arguments.localize,
+           "Cut the mesh into submeshes, a task each (before); split their large patches into "
+           "further tasks, too (during, the default); or subdivide the whole mesh level by "
+           "level, slow and large, for comparison (off)")
+      .type("before|during|off")
+      .group("Submeshes");
   constexpr Index kMostFaces = Index{1} << 31U;
   command
-      .add_option("--submesh-faces", arguments.submeshFaces,
-                  "Faces of a submesh (default: " + std::to_string(kDefaultSubmeshFaces) + ")")
-      ->check(CLI::Range(Index{1}, kMostFaces))
-      ->type_name("N")
-      ->group("Submeshes");
+      .add("--submesh-faces", arguments.submeshFaces,
+           "Faces of a submesh (default: " + std::to_string(kDefaultSubmeshFaces) + ")")
+      .range(Index{1}, kMostFaces)
+      .type("N")
+      .group("Submeshes");
 }
 
 SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments) {

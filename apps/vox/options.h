@@ -1,18 +1,8 @@
 #pragma once
 
+#include "apps/vox/command.h"
 #include "libvox/io/scene_file.h"
-#include "libvox/options/grid_kind.h"
-#include "libvox/options/preparation_options.h"
-#include "libvox/options/run_options.h"
-#include "libvox/options/smoothing_options.h"
-#include "libvox/options/stop_rule.h"
-#include "libvox/options/volume_options.h"
-#include "libvox/options/voxelize.h"
-#include "libvox/pipeline/convert.h"
-#include "libvox/pipeline/surface.h"
-#include "libvox/voxelize/scan.h"
-
-#include <CLI/CLI.hpp>
+#include "libvox/options/convert_options.h"
 
 #include <optional>
 #include <string>
@@ -27,17 +17,17 @@ struct CommonOptions {
   bool quiet = false;
   bool verbose = false;
 };
-void addCommonOptions(CLI::App& command, CommonOptions& common);
+void addCommonOptions(const Command& command, CommonOptions& common);
 
 /// --threads and --max-memory, of the common options.
-void addRunOptions(CLI::App& command, RunOptions& run);
+void addRunOptions(const Command& command, RunOptions& run);
 
 /// --dim and --voxel-size.
 struct ResolutionOptions {
   std::optional<int> dim;
   std::optional<double> voxelSize;
 };
-void addResolutionOptions(CLI::App& command, ResolutionOptions& resolution);
+void addResolutionOptions(const Command& command, ResolutionOptions& resolution);
 
 /// --boundary, --interpolate and --interpolate-vertices, as typed.
 struct SmoothingArguments {
@@ -45,7 +35,7 @@ struct SmoothingArguments {
   std::string interpolate;
   std::string vertexFile;
 };
-void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments);
+void addSmoothingOptions(const Command& command, SmoothingArguments& arguments);
 
 /// What they mean; reads the file of vertices.
 /// @throws UsageError, InputError
@@ -57,7 +47,7 @@ struct VoxelizationArguments {
   std::string voxelize;
   std::string separating;
 };
-void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments);
+void addVoxelizationOptions(const Command& command, VoxelizationArguments& arguments);
 
 /// What they mean; nothing if not said.
 /// @throws UsageError
@@ -77,25 +67,25 @@ struct VolumeArguments {
   std::optional<double> tolerance;
   std::optional<bool> half;
 };
-void addVolumeOptions(CLI::App& command, VolumeArguments& arguments);
-void addFileOptions(CLI::App& command, VolumeArguments& arguments);
+void addVolumeOptions(const Command& command, VolumeArguments& arguments);
+void addFileOptions(const Command& command, VolumeArguments& arguments);
 
 /// What they mean.
 /// @throws UsageError
 VolumeOptions parseVolume(const VolumeArguments& arguments);
 
 /// --weld, as said.
-void addWeldOption(CLI::App& command, std::optional<double>& tolerance);
+void addWeldOption(const Command& command, std::optional<double>& tolerance);
 
 /// --strict, as said; --strict=false overrides a scene.
-void addStrictOption(CLI::App& command, std::optional<bool>& strict);
+void addStrictOption(const Command& command, std::optional<bool>& strict);
 
 /// --localize and --submesh-faces, as typed.
 struct SubmeshArguments {
   std::string localize;
   Index submeshFaces = kDefaultSubmeshFaces;
 };
-void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments);
+void addSubmeshOptions(const Command& command, SubmeshArguments& arguments);
 /// @throws UsageError
 SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments);
 

@@ -39,8 +39,8 @@ struct Options {
   VisibleOptions visible;
   // Of meshes and scenes:
   ConversionArguments conversion;
-  std::vector<const CLI::Option*> meshOptions;  // all of these
-  std::vector<const CLI::Option*> gridOptions;  // those of .vdb files
+  std::vector<Option> meshOptions;  // all of these
+  std::vector<Option> gridOptions;  // those of .vdb files
   CommonOptions common;
 };
 
@@ -112,10 +112,9 @@ RenderOptions parse(const Options& options) {
 }
 
 /// Refuses options that mean nothing for the kind of input.
-void refuse(const std::vector<const CLI::Option*>& given, const std::string& input,
-            const char* why) {
-  for (const CLI::Option* option : given)
-    if (option->count() > 0) throw UsageError(input + ": " + option->get_name() + why);
+void refuse(const std::vector<Option>& given, const std::string& input, const char* why) {
+  for (const Option& option : given)
+    if (option.isGiven()) throw UsageError(input + ": " + option.name() + why);
 }
 
 bool hasColors(const Scene& scene) {
@@ -192,12 +191,9 @@ int run(const Options& options) {
   return 0;
 }
 
-void addPictureOptions(CLI::App& command, Options& options) {
+void addPictureOptions(const Command& command, Options& options) {
   const auto add = [&](const char* name, auto& value, const std::string& help, const char* type) {
-    return command.add_option(name, value, help)
-        ->type_name(type)
-        ->group("Picture")
-        ->capture_default_str();
+    return command.add(name, value, help).type(type).group("Picture").showDefault();
   };
   add("--view,--views", options.views,
       "Where from to look: " + allViewNames() +
@@ -214,30 +210,28 @@ void addPictureOptions(CLI::App& command, Options& options) {
       "Stored normals, and congradient where there are none (normals); normals estimated from the "
       "voxels around (congradient); or the sides of voxels (flat). A level set has its own",
       "WHICH");
-  add("--samples", options.samples, "N x N rays per pixel", "N")
-      ->check(CLI::Range(1, kMostSamples));
+  add("--samples", options.samples, "N x N rays per pixel", "N").range(1, kMostSamples);
   add("--occlusion", options.occlusionRays,
       "Rays per sample that look for what hides the sky; 0: no ambient occlusion", "N")
-      ->check(CLI::Range(0, kMostOcclusionRays));
+      .range(0, kMostOcclusionRays);
 }
 
-void addGridOptions(CLI::App& command, Options& options) {
+void addGridOptions(const Command& command, Options& options) {
   options.gridOptions = {
       command
-          .add_option("--grid", options.visible.grid,
-                      "Grid to show (default: mask, density, surface or any other of numbers)")
-          ->type_name("NAME")
-          ->group("OpenVDB files"),
+          .add("--grid", options.visible.grid,
+               "Grid to show (default: mask, density, surface or any other of numbers)")
+          .type("NAME")
+          .group("OpenVDB files"),
       command
-          .add_option_function<double>(
-              "--threshold", [&options](double value) { options.visible.threshold = value; },
-              "Fog above this density is solid (default: a tenth of the largest)")
-          ->type_name("T")
-          ->group("OpenVDB files")};
+          .add("--threshold", options.visible.threshold,
+               "Fog above this density is solid (default: a tenth of the largest)")
+          .type("T")
+          .group("OpenVDB files")};
 }
 
-void addMeshOptions(CLI::App& command, Options& options) {
-  const std::size_t before = command.get_options().size();
+void addMeshOptions(const Command& command, Options& options) {
+  const std::size_t before = command.options().size();
   addResolutionOptions(command, options.conversion.resolution);
   addSmoothingOptions(command, options.conversion.smoothing);
   addVoxelizationOptions(command, options.conversion.voxelization);
@@ -245,33 +239,32 @@ void addMeshOptions(CLI::App& command, Options& options) {
   addStrictOption(command, options.conversion.strict);
   addSubmeshOptions(command, options.conversion.submeshes);
   command
-      .add_option("--texture", options.conversion.texture,
-                  "Solid texture of all objects, as for vox convert (default: the scene's, or the "
-                  "colours of the mesh)")
-      ->type_name("SPEC")
-      ->group("Texture");
-  const auto all = command.get_options();
+      .add("--texture", options.conversion.texture,
+           "Solid texture of all objects, as for vox convert (default: the scene's, or the "
+           "colours of the mesh)")
+      .type("SPEC")
+      .group("Texture");
+  const auto all = command.options();
   options.meshOptions.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
 }
 
 }  // namespace
 
 Action addRender(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("render", "Draw a .vdb file, or what a mesh or scene becomes (.png)");
+  const Command command(app, "render", "Draw a .vdb file, or what a mesh or scene becomes (.png)");
   const auto options = std::make_shared<Options>();
   command
-      ->add_option("INPUT", options->input,
-                   "OpenVDB file (.vdb), scene (.toml) or mesh (.obj .ply .off .stl .om)")
-      ->required();
-  command->add_option("-o,--output", options->output, "PNG file to write; - for stdout")
-      ->required()
-      ->type_name("OUT.png")
-      ->group("Output");
-  addPictureOptions(*command, *options);
-  addGridOptions(*command, *options);
-  addMeshOptions(*command, *options);
-  addCommonOptions(*command, options->common);
+      .add("INPUT", options->input,
+           "OpenVDB file (.vdb), scene (.toml) or mesh (.obj .ply .off .stl .om)")
+      .required();
+  command.add("-o,--output", options->output, "PNG file to write; - for stdout")
+      .required()
+      .type("OUT.png")
+      .group("Output");
+  addPictureOptions(command, *options);
+  addGridOptions(command, *options);
+  addMeshOptions(command, *options);
+  addCommonOptions(command, options->common);
   return [options] { return run(*options); };
 }
 

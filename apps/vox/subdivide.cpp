@@ -76,30 +76,29 @@ int run(const Options& options) {
 }  // namespace
 
 Action addSubdivide(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("subdivide", "Write the refined polygon mesh itself");
+  const Command command(app, "subdivide", "Write the refined polygon mesh itself");
   const auto options = std::make_shared<Options>();
-  command->add_option("INPUT", options->input, "Scene (.toml) or mesh (.obj .ply .off .stl .om)")
-      ->required();
+  command.add("INPUT", options->input, "Scene (.toml) or mesh (.obj .ply .off .stl .om)")
+      .required();
   command
-      ->add_option("-o,--output", options->output,
-                   "Mesh file to write: .obj, .ply or .off; - for OBJ on stdout")
-      ->required()
-      ->type_name("OUT")
-      ->group("Output");
+      .add("-o,--output", options->output,
+           "Mesh file to write: .obj, .ply or .off; - for OBJ on stdout")
+      .required()
+      .type("OUT")
+      .group("Output");
   constexpr int kMostLevels = 30;
   command
-      ->add_option(
-          "--levels", options->levels,
-          "Doo-Sabin steps; 0 writes the control mesh: the input, its vertices moved where the "
-          "surface is to pass through them")
-      ->required()
-      ->check(CLI::Range(0, kMostLevels))
-      ->type_name("K")
-      ->group("Output");
-  addSmoothingOptions(*command, options->smoothing);
-  addWeldOption(*command, options->weldTolerance);
-  addStrictOption(*command, options->strict);
-  addCommonOptions(*command, options->common);
+      .add("--levels", options->levels,
+           "Doo-Sabin steps; 0 writes the control mesh: the input, its vertices moved where the "
+           "surface is to pass through them")
+      .required()
+      .range(0, kMostLevels)
+      .type("K")
+      .group("Output");
+  addSmoothingOptions(command, options->smoothing);
+  addWeldOption(command, options->weldTolerance);
+  addStrictOption(command, options->strict);
+  addCommonOptions(command, options->common);
   return [options] { return run(*options); };
 }
 

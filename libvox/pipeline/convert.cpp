@@ -210,6 +210,18 @@ Estimate estimate(const Scene& scene, const Request& request, std::vector<std::s
   });
 }
 
+std::vector<std::string> namesOf(const Conversion& conversion) {
+  std::vector<std::string> names;
+  for (const auto& grid : conversion.grids) names.push_back(grid->getName());
+  return names;
+}
+
+std::vector<std::uint64_t> memoryOf(const Conversion& conversion) {
+  std::vector<std::uint64_t> bytes;
+  for (const auto& grid : conversion.grids) bytes.push_back(grid->memUsage());
+  return bytes;
+}
+
 void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress) {
   openvdb::MetaMap metadata;
   metadata.insertMeta("creator", openvdb::StringMetadata(std::string("vox ") + version()));

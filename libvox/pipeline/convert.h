@@ -8,6 +8,7 @@
 #include "libvox/pipeline/estimate.h"
 #include "libvox/pipeline/request.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <memory>
@@ -52,6 +53,10 @@ Estimate estimate(const Scene& scene, const ConvertOptions& options,
 
 /// The same with options that are resolved already.
 Estimate estimate(const Scene& scene, const Request& request, std::vector<std::string>& warnings);
+
+/// Of each grid its name, and its bytes in memory.
+std::vector<std::string> namesOf(const Conversion& conversion);
+std::vector<std::uint64_t> memoryOf(const Conversion& conversion);
 
 /// Writes grids to a new file: complete or not at all, equal input giving equal bytes.
 /// @param progress  that of the conversion, of which this is the last stage; or none
