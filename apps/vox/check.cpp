@@ -1,4 +1,4 @@
-// vox check: whether a .vdb file is what it should be.
+// vox check: faults of a .vdb file.
 
 #include "apps/vox/command.h"
 #include "apps/vox/options.h"
@@ -43,9 +43,9 @@ struct Options {
   bool json = false;
 };
 
-/// What is found.
+/// Result of the check.
 struct Check {
-  std::string grid;  ///< whose voxels are looked at; "" for none
+  std::string grid;  ///< whose voxels are checked; "" if there is none
   std::uint64_t activeVoxels = 0;
   std::vector<Component> components;
   std::vector<Component> enclosed;
@@ -73,7 +73,7 @@ std::vector<std::string> ignoredCodes(const Options& options) {
   return codes;
 }
 
-/// The grid whose voxels are the surface; null if there is none and none is asked for.
+/// The grid whose voxels are the surface; null if the file has none and the options need none.
 openvdb::GridBase::Ptr chooseGrid(const VdbFile& file, const Options& options) {
   const auto named = [&](const std::string& name) -> openvdb::GridBase::Ptr {
     for (const NamedGrid& grid : file.grids)

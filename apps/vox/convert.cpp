@@ -97,7 +97,7 @@ void printEstimate(const Options& options, const Scene& scene, const Request& re
             << bytes(made.fileBytes) << " in the file\n";
 }
 
-/// Checks, before the work starts, what is to be written.
+/// Checks the outputs before the work starts.
 void requireOutputs(const Options& options, const Frame& frame, const Scene& scene) {
   requireOutput(frame.output, options.common, scene);
   if (options.report.empty()) return;

@@ -1,4 +1,4 @@
-// What vox convert did, as JSON and as text.
+// The report of vox convert, as JSON and as text.
 
 #include "apps/vox/convert_report.h"
 
@@ -36,7 +36,7 @@ Json toJson(const ObjectReport& object) {
           {"triangles", object.polygons.triangles},
           {"fanned_polygons", object.polygons.fanned},
           {"active_voxels", object.activeVoxels},
-          // Infinity, when others have had all its voxels before, is null in JSON.
+          // Infinite if earlier objects have all of its voxels: null in JSON.
           {"vertices_per_voxel", perVoxel(object)},
           {"interpolation",
            {{"boundary_vertices", interpolation.boundaryVertices},
@@ -66,7 +66,7 @@ Json toJson(const VolumeOptions& volume) {
           {"up", orNull(kUpAxisNames, volume.up)}};
 }
 
-/// What was asked for; null where nothing was, and the scene or a default decided.
+/// The options that were given; null if the scene or the default decided.
 Json optionsJson(const FinishedRun& run) {
   const ConvertOptions& options = run.options;
   const SmoothingOptions& smoothing = options.smoothing;

@@ -1,4 +1,4 @@
-// vox diff: what differs between two .vdb files.
+// vox diff: the differences of two .vdb files.
 
 #include "libvox/inspect/diff.h"
 

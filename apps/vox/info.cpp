@@ -1,4 +1,4 @@
-// vox info: what is in a mesh, scene or .vdb file, and what preparation makes of a mesh.
+// vox info: properties of a mesh, scene or .vdb file, and of the mesh after preparation.
 
 #include "apps/vox/command.h"
 #include "apps/vox/options.h"
@@ -139,7 +139,7 @@ void print(const std::string& title, const MeshSummary& mesh) {
     if (!defect.message.empty()) std::cout << "      " << defect.message << '\n';
 }
 
-/// A mesh as it is, what preparation does to it, and what `vox convert` then sees.
+/// A mesh as it is, the repairs of preparation, and the mesh after them.
 Json describe(const SceneObject& object, double weldTolerance, bool json) {
   const MeshSummary input = summarize(object.mesh);
   RepairOptions options;

@@ -145,7 +145,7 @@ void addVoxelizationOptions(const Command& command, VoxelizationArguments& argum
       .group("Voxels");
   command
       .add("--separating", arguments.separating,
-           "Paths of white voxels that the surface stops: those through faces (6), or those "
+           "Paths of inactive voxels that the surface stops: those through faces (6), or those "
            "through edges and corners too (26) (default: 6)")
       .type("6|26")
       .group("Voxels");

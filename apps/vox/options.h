@@ -19,7 +19,7 @@ struct CommonOptions {
 };
 void addCommonOptions(const Command& command, CommonOptions& common);
 
-/// --threads and --max-memory, of the common options.
+/// --threads and --max-memory.
 void addRunOptions(const Command& command, RunOptions& run);
 
 /// --dim and --voxel-size.
@@ -37,7 +37,7 @@ struct SmoothingArguments {
 };
 void addSmoothingOptions(const Command& command, SmoothingArguments& arguments);
 
-/// What they mean; reads the file of vertices.
+/// Their values; reads the file of vertices.
 /// @throws UsageError, InputError
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments);
 
@@ -49,7 +49,7 @@ struct VoxelizationArguments {
 };
 void addVoxelizationOptions(const Command& command, VoxelizationArguments& arguments);
 
-/// What they mean; nothing if not said.
+/// Their values; empty if they are not given.
 /// @throws UsageError
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
@@ -70,14 +70,14 @@ struct VolumeArguments {
 void addVolumeOptions(const Command& command, VolumeArguments& arguments);
 void addFileOptions(const Command& command, VolumeArguments& arguments);
 
-/// What they mean.
+/// Their values.
 /// @throws UsageError
 VolumeOptions parseVolume(const VolumeArguments& arguments);
 
-/// --weld, as said.
+/// --weld.
 void addWeldOption(const Command& command, std::optional<double>& tolerance);
 
-/// --strict, as said; --strict=false overrides a scene.
+/// --strict; --strict=false overrides a scene.
 void addStrictOption(const Command& command, std::optional<bool>& strict);
 
 /// --localize and --submesh-faces, as typed.
@@ -89,7 +89,7 @@ void addSubmeshOptions(const Command& command, SubmeshArguments& arguments);
 /// @throws UsageError
 SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments);
 
-/// How a mesh or scene becomes voxels, as typed: what vox convert and vox render share.
+/// Options of vox convert and vox render that tell how a mesh or scene becomes voxels, as typed.
 struct ConversionArguments {
   ResolutionOptions resolution;
   SmoothingArguments smoothing;
@@ -99,7 +99,7 @@ struct ConversionArguments {
   SubmeshArguments submeshes;
   std::string texture;
 };
-/// What they mean; reads the file of vertices.
+/// Their values; reads the file of vertices.
 /// @throws UsageError, InputError
 ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOptions& run);
 
@@ -110,7 +110,7 @@ std::vector<GridKind> parseGrids(const std::string& names);
 /// "-": data goes to standard output.
 bool isStdout(const std::string& file);
 
-/// Whether two names stand for one file, which need not exist.
+/// True if two names mean the same file, which need not exist.
 bool isSameFile(const std::string& a, const std::string& b);
 
 /// Checks, before the work starts, that the output can be written and is none of the inputs.

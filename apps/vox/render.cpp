@@ -1,4 +1,4 @@
-// vox render: a picture of a .vdb file, or of what a mesh or scene becomes.
+// vox render: a picture of a .vdb file, or of the voxels of a mesh or scene.
 
 #include "libvox/render/render.h"
 
@@ -44,7 +44,7 @@ struct Options {
   CommonOptions common;
 };
 
-/// The whole text as a whole number.
+/// Reads the whole text as an integer.
 template <class Number>
 bool readNumber(std::string_view text, Number& number, int base = 10) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
@@ -111,7 +111,7 @@ RenderOptions parse(const Options& options) {
   return parsed;
 }
 
-/// Refuses options that mean nothing for the kind of input.
+/// Refuses options that have no meaning for this kind of input.
 void refuse(const std::vector<Option>& given, const std::string& input, const char* why) {
   for (const Option& option : given)
     if (option.isGiven()) throw UsageError(input + ": " + option.name() + why);
@@ -123,7 +123,7 @@ bool hasColors(const Scene& scene) {
   });
 }
 
-/// What a picture takes.
+/// The grids that a picture needs.
 std::vector<GridKind> gridsFor(const RenderOptions& options, bool colored) {
   std::vector grids = {GridKind::kMask};
   if (options.shading.shading == Shading::kNormals) grids.push_back(GridKind::kNormal);
@@ -139,7 +139,7 @@ Grids readGrids(const Options& options) {
   return grids;
 }
 
-/// What the progress of rendering is planned with, in the nanoseconds of the other stages.
+/// Expected nanoseconds, as the other stages count their work.
 double workOfRendering(const RenderOptions& options) {
   constexpr double kPerRay = 400;
   return kPerRay * options.width * options.height * static_cast<double>(options.views.size()) *

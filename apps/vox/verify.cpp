@@ -1,4 +1,4 @@
-// Voxels held against the surface they were made from.
+// Compares voxels with the surface that they were made from.
 
 #include "apps/vox/verify.h"
 
@@ -27,13 +27,13 @@ bool facesFitIntoVoxels(const PolygonMesh& mesh) {
   return true;
 }
 
-/// The smooth surface again, another way: the whole mesh at once, and by the plain algorithm.
+/// The smooth surface, made again in another way: the whole mesh at once, by the plain algorithm.
 ReferenceSurface smoothReference(SubdivisionLevel level, const MemoryBudget& budget,
                                  Progress& progress) {
   while (!facesFitIntoVoxels(level.mesh))
     level = subdividedWithin(budget, std::move(level), 1, progress);
-  // The conversion may stop levels before, at faces as small as a voxel: control points whose
-  // second differences are at most 2 voxels, so that the surface is within 2/8 of them.
+  // The conversion may stop some levels earlier, at faces as small as a voxel. Second differences
+  // of their control points are at most 2 voxels, so the surface is within 2/8 voxels of them.
   constexpr double kTolerance = 0.25;
   return referenceSurface(std::move(level.mesh), kTolerance);
 }
@@ -50,7 +50,7 @@ ReferenceSurface referenceOf(const Scene& scene, const SceneObject& object,
   if (uniform)
     return referenceSurface(
         subdividedWithin(budget, std::move(level), *way.until.levels, progress).mesh, 0);
-  // Polygons that stop here and there have no second implementation.
+  // Polygons that stop at different levels have no second implementation.
   TriangleSoup soup = triangleSoup(level, way.until, progress);
   return {std::move(soup.points), std::move(soup.triangles), 0};
 }

@@ -18,8 +18,8 @@ struct ObjectCheck {
   SeparationReport separation;
 };
 
-/// Holds voxels against the surfaces of a scene, object by object. Each is subdivided again, as a
-/// whole, level by level: down to faces that fit into a voxel, or as often as its rule says.
+/// Looks for tunnels of the surfaces of a scene, object by object. Each surface is made again, as a
+/// whole, level by level: down to faces that fit into a voxel, or to the level of its stop rule.
 /// @param request    as for the conversion
 /// @param voxelSize  of the voxels, world units
 /// @throws LimitError  a refined mesh does not fit into memory; and all that prepare throws

@@ -24,8 +24,7 @@ inline constexpr NameTable<Interpolate, 4> kInterpolateNames = {
      {Interpolate::kBoundary, "boundary"},
      {Interpolate::kBoth, "both"}}};
 
-/// How to smooth an object. What is not set here is taken from elsewhere: request.h tells the
-/// order.
+/// How to smooth an object. A value that is not set comes from the object, else from the default.
 struct SmoothingOptions {
   std::optional<BoundaryRule> boundary;                    ///< default: kExtend
   std::optional<Interpolate> interpolate;                  ///< default: kNothing

@@ -6,11 +6,11 @@
 
 namespace vox {
 
-/// More levels than any mesh has room for.
+/// More levels than fit into memory for any mesh.
 inline constexpr int kMostLevels = 30;
 
-/// How far a surface is subdivided before it is voxelized: each vertex until it meets one of these,
-/// whichever comes first. With none of them, until the vertices stand as close as voxels.
+/// How far a surface is subdivided before it is voxelized: each vertex until it meets the first of
+/// these limits. Without limits: until the vertices are as close as voxels.
 struct StopRule {
   std::optional<int> levels = {};       ///< Doo-Sabin steps, 0..kMostLevels
   std::optional<double> diameter = {};  ///< L-inf diameter of the faces, voxels, > 0
@@ -21,14 +21,15 @@ struct StopRule {
   bool operator==(const StopRule&) const = default;
 };
 
-/// What is wrong with a rule, for messages; empty if nothing.
+/// What is wrong with a rule, for messages; empty if it is valid.
 std::string faultOf(const StopRule& rule);
 
 /// Name on the command line: "voxel", "levels=3", "angle=5,diameter=4".
 std::string stopRuleName(const StopRule& rule);
 
-/// Rule of that name, or nothing. Parts are separated by commas; of a kind given twice the first to
-/// be met counts. "voxel" beside others stands for diameter=1.
+/// The rule of that name; empty if there is none. Limits are separated by commas. If the same kind
+/// of limit occurs twice, the one that is met first counts. "voxel" among other limits means
+/// diameter=1.
 std::optional<StopRule> stopRuleNamed(std::string_view name);
 
 /// For messages.

@@ -8,34 +8,34 @@
 
 namespace vox {
 
-/// What of an object `density` holds.
+/// Which voxels of an object `density` holds.
 enum class Fill {
-  kSurface,  ///< the black voxels
-  kSolid,    ///< and what they enclose
+  kSurface,  ///< the active voxels of the surface
+  kSolid,    ///< these and the voxels that they enclose
 };
 inline constexpr NameTable<Fill, 2> kFillNames = {
     {{Fill::kSurface, "surface"}, {Fill::kSolid, "solid"}}};
 
-/// What a component that has no inside (one with boundary, or one-sided) is to a volume.
+/// How a volume treats a component without inside: one that has a boundary, or is one-sided.
 enum class OpenMesh {
-  kError,     ///< a reason to refuse the object
-  kSurface,   ///< a surface: `density` has its voxels, `surface` a sheet one voxel thick
-  kUnsigned,  ///< the same, but `surface` has distances without sign
+  kError,     ///< the object is refused
+  kSurface,   ///< as a surface: `density` has its voxels, `surface` a sheet one voxel thick
+  kUnsigned,  ///< as a surface, but the grid `surface` has distances without sign
 };
 inline constexpr NameTable<OpenMesh, 3> kOpenMeshNames = {{{OpenMesh::kError, "error"},
                                                            {OpenMesh::kSurface, "surface"},
                                                            {OpenMesh::kUnsigned, "unsigned"}}};
 
-/// How the values of a file are packed, without loss.
+/// How the values of a file are compressed, without loss.
 enum class Compression { kBlosc, kZip, kPlain };
 inline constexpr NameTable<Compression, 3> kCompressionNames = {
     {{Compression::kBlosc, "blosc"}, {Compression::kZip, "zip"}, {Compression::kPlain, "none"}}};
 
-/// The program that a file is for.
+/// The program that will read the file.
 enum class Target {
   kBlender,    ///< z is up
-  kBlender34,  ///< besides, moved by half a voxel: Blender 3.4 draws voxel i from i to i + 1
-  kHoudini,    ///< y is up; names of grids as usual there
+  kBlender34,  ///< z is up; grids move by half a voxel: Blender 3.4 draws voxel i from i to i + 1
+  kHoudini,    ///< y is up; grids have the names of Houdini
 };
 inline constexpr NameTable<Target, 3> kTargetNames = {{{Target::kBlender, "blender"},
                                                        {Target::kBlender34, "blender-3.4"},
@@ -48,7 +48,7 @@ inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxi
 inline constexpr double kDefaultBand = 3;          ///< voxels
 inline constexpr double kDefaultTolerance = 0.05;  ///< voxels
 
-/// How to make volumes. What is not set here is taken from the scene, then from the default.
+/// How to make volumes. A value that is not set comes from the scene, else from the default.
 struct VolumeOptions {
   std::optional<Fill> fill;          ///< default: kSurface
   std::optional<double> gain;        ///< value of `density` at its voxels; see densityValue()

@@ -25,7 +25,7 @@ namespace {
 struct Part {
   std::size_t surface;
   const MeshComponent* component;
-  Box box;  // of its control points, so of it, too; index space, widened by the band
+  Box box;  // of its control points, which hold the surface; index space, widened by the band
 
   double volume() const { return (box.high - box.low).prod(); }
 };
@@ -47,8 +47,8 @@ Box boxOf(const PolygonMesh& mesh, const MeshComponent& component, double margin
   return box;
 }
 
-/// Closed parts in the order in which they are united and taken out, even batches and odd ones.
-/// What encloses another has a larger box and comes before it.
+/// Closed parts in the order in which they are united (even batches) and taken out (odd batches). A
+/// part that encloses another has a larger box and comes first.
 std::map<int, Batch> batchesOf(std::vector<Part> parts) {
   constexpr std::size_t kMostCompared = 20000;
   std::stable_sort(parts.begin(), parts.end(),
@@ -83,7 +83,7 @@ class SurfaceMaker {
       components_.push_back(componentsOf(surface.base));
   }
 
-  /// Closed parts, or those without inside.
+  /// The closed parts, or the parts without inside.
   std::vector<Part> parts(bool closed) const {
     std::vector<Part> parts;
     for (std::size_t s = 0; s < surfaces_.size(); ++s)

@@ -1,5 +1,5 @@
-// What a conversion will make, from the area of its surfaces. Factors are as once measured on the
-// scenes at dim 64 to 1024.
+// The expected result of a conversion, from the area of its surfaces. Constant factors were
+// measured on the scenes at dim 64 to 1024.
 
 #include "libvox/pipeline/estimate.h"
 
@@ -35,13 +35,13 @@ using FloatLeaf = openvdb::FloatTree::LeafNodeType;
 using FloatUpper = openvdb::FloatTree::RootNodeType::ChildNodeType;
 using FloatLower = FloatUpper::ChildNodeType;
 
-/// Surfaces in numbers, in voxels.
+/// Sizes of surfaces, in voxels.
 struct Measure {
   double area = 0;
-  double taxicabArea = 0;  ///< of |nx| + |ny| + |nz|: the cubes of a lattice that it meets
-  double largestArea = 0;  ///< of max(|nx|, |ny|, |nz|): the least cubes that separate its sides
+  double taxicabArea = 0;  ///< integral of |nx| + |ny| + |nz|: number of unit cubes that it meets
+  double largestArea = 0;  ///< integral of max(|nx|, |ny|, |nz|): fewest cubes that separate it
   double volume = 0;       ///< inside
-  double blackVoxels = 0;
+  double activeVoxels = 0;
   double leaves = 0;  ///< nodes of 8^3 voxels
   double lowers = 0;  ///< of 128^3
   double uppers = 0;  ///< of 4096^3
@@ -49,8 +49,8 @@ struct Measure {
   bool smooth = false;  ///< normals differ from voxel to voxel
 };
 
-/// The cubes of 2^log2 voxels a side that polygons meet, unless these are too large to look, or too
-/// many and long.
+/// The cubes of 2^log2 voxels a side that polygons meet. Gives up, without a count, where the
+/// polygons are so large that finding the cubes takes too long.
 class Cubes {
  public:
   Cubes(int log2, double mostPieces) : log2_(log2), mostPieces_(mostPieces) {}
@@ -66,9 +66,9 @@ class Cubes {
     }
   }
 
-  /// Their number, or nothing.
+  /// Number of cubes; empty if it gave up.
   std::optional<double> count() const { return countOf(log2_); }
-  /// The number of larger ones.
+  /// Number of larger cubes; empty if it gave up.
   std::optional<double> countOf(int log2) const {
     if (!complete_) return std::nullopt;
     std::unordered_set<Coord> larger;
@@ -108,7 +108,7 @@ class Cubes {
   std::unordered_set<Coord> cubes_;
 };
 
-/// Whether a surface may become far smaller than its control mesh, so that nothing is certain.
+/// True if a surface may become far smaller than its control mesh: then nothing is certain.
 bool shrinks(const PreparedSurface& surface) {
   const auto& twin = surface.base.adjacency.twin;
   return surface.base.boundary == BoundaryStage::kPlain &&
@@ -126,15 +126,14 @@ void addAreas(const PolygonMesh& polygons, Measure& measure) {
   }
 }
 
-/// The level that an object stops at, if it stops at one whatever its faces are.
+/// The level at which all faces of an object stop; empty if they stop at different levels.
 std::optional<int> levelOf(const ConversionWay& way) {
   const bool ofLevel = way.polygons && way.until == StopRule{way.until.levels};
   return ofLevel ? way.until.levels : std::nullopt;
 }
 
-/// Black voxels per area. Vertices that stand closer than voxels miss some cubes that the surface
-/// only just cuts.
-double blackVoxelsOf(const ConversionWay& way, const Measure& m) {
+/// Number of active voxels. Vertex conversion misses some cubes that the surface only just cuts.
+double activeVoxelsOf(const ConversionWay& way, const Measure& m) {
   constexpr double kOfCubes = 0.75;
   if (!way.polygons) return kOfCubes * m.taxicabArea;
   return way.separation == Separation::k26 ? m.taxicabArea : m.largestArea;
@@ -150,7 +149,7 @@ Measure measureOf(const PreparedSurface& surface, Cubes& leaves, Cubes& lowers) 
   const auto& twin = surface.base.adjacency.twin;
   const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
   if (!open) measure.volume = std::max(0.0, signedVolume(polygons, faces).volume);
-  measure.blackVoxels = blackVoxelsOf(surface.way, measure);
+  measure.activeVoxels = activeVoxelsOf(surface.way, measure);
   return measure;
 }
 
@@ -165,7 +164,7 @@ Measure measureOf(std::span<const PreparedSurface> surfaces) {
     all.area += one.area;
     all.taxicabArea += one.taxicabArea;
     all.volume += one.volume;
-    all.blackVoxels += one.blackVoxels;
+    all.activeVoxels += one.activeVoxels;
     all.textured |= surface.texture.has_value();
     all.smooth |= levelOf(surface.way) != 0;
   }
@@ -176,14 +175,14 @@ Measure measureOf(std::span<const PreparedSurface> surfaces) {
   return all;
 }
 
-constexpr double kHeap = 16;  // what the heap needs for a node
+constexpr double kHeap = 16;  // overhead of the heap for a node
 constexpr double kFilePerUpper = 9200;
 constexpr double kFilePerLower = 1100;
-constexpr double kMoreFilePerLeaf = 50;  // of values that are all equal
+constexpr double kMoreFilePerLeaf = 50;  // if its values are all equal
 
 GridEstimate estimateMask(const Measure& m) {
   GridEstimate grid{GridKind::kMask};
-  grid.voxels = m.blackVoxels;
+  grid.voxels = m.activeVoxels;
   grid.leaves = m.leaves;
   grid.bytes = grid.leaves * (sizeof(MaskLeaf) + kHeap) + m.lowers * sizeof(MaskLower) +
                m.uppers * sizeof(MaskUpper);
@@ -202,7 +201,7 @@ GridEstimate estimateDensity(const Measure& m, const VolumeSettings& volume) {
   GridEstimate grid = estimateMask(m);
   grid.kind = GridKind::kDensity;
   const bool solid = volume.fill == Fill::kSolid;
-  if (solid) grid.voxels = m.volume + m.blackVoxels / 2;
+  if (solid) grid.voxels = m.volume + m.activeVoxels / 2;
   grid.peakBytes = bytesOfValues(grid.leaves, m) + (solid ? 2 * grid.bytes : 0);
   grid.bytes = bytesOfValues(grid.leaves, m);
   grid.fileBytes += grid.leaves * kMoreFilePerLeaf;
@@ -221,7 +220,8 @@ GridEstimate estimateSurface(const Measure& m, const VolumeSettings& volume) {
   return grid;
 }
 
-/// Normals or colours, which vary from voxel to voxel or do not.
+/// Normals or colours.
+/// @param vary  from voxel to voxel
 GridEstimate estimateVectors(GridKind kind, const Measure& m, bool vary) {
   using Leaf = openvdb::Vec3STree::LeafNodeType;
   using Upper = openvdb::Vec3STree::RootNodeType::ChildNodeType;
@@ -238,8 +238,8 @@ GridEstimate estimateVectors(GridKind kind, const Measure& m, bool vary) {
   return grid;
 }
 
-/// Largest nodes that no resolution saves: those of a compact model around the origin, or all of
-/// one that is scattered over far more than its surface fills.
+/// Number of largest nodes at any resolution. A compact model around the origin always has some; a
+/// model that is scattered over far more space than its surface fills keeps all of them.
 double fixedUppers(const Measure& m) {
   constexpr double kAroundOrigin = 8;
   constexpr double kSide = MaskUpper::DIM;
@@ -270,7 +270,7 @@ Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<cons
   const Measure measure = measureOf(surfaces);
   Estimate all;
   const bool voxels = needsVoxels(kinds);
-  if (voxels) all.voxels = measure.blackVoxels;
+  if (voxels) all.voxels = measure.activeVoxels;
   all.bytes = voxels ? estimateMask(measure).bytes : 0;
   double uppers = voxels ? sizeof(MaskUpper) : 0;
   for (const GridKind kind : kinds) {
@@ -312,8 +312,8 @@ std::string refusalOf(const Estimate& estimate, double longestSide, const Memory
   text << "the grids need about " << formatBytes(static_cast<std::uint64_t>(estimate.bytes))
        << " of memory on top of " << formatBytes(budget.limit() - budget.left())
        << ", the limit is " << formatBytes(budget.limit()) << "; ";
-  // Grids grow with the square of the resolution, except for their largest nodes. What is advised
-  // is to fit even if it is more than estimated.
+  // Grids grow with the square of the resolution, except for their largest nodes. The resolution
+  // that is advised fits even if the estimate is too low.
   const double scale = std::sqrt(std::max(0.0, left / kEstimateFactor - estimate.fixedBytes) /
                                  (estimate.bytes - estimate.fixedBytes));
   const double voxelSize = estimate.voxelSize / scale;

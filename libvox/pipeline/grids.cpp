@@ -1,4 +1,4 @@
-// What becomes of the voxels: the grids asked for, and what they need.
+// The output grids, made from voxels and surfaces.
 
 #include "libvox/pipeline/grids.h"
 

@@ -1,4 +1,4 @@
-// What is inside the objects of a scene.
+// The inside of the objects of a scene.
 
 #include "libvox/pipeline/inside.h"
 
@@ -25,7 +25,8 @@
 namespace vox {
 namespace {
 
-/// "jack: 2 of its 3 components are open, the first of 42 faces at (1, 0, 0)".
+/// "jack: 2 of its 3 components have no inside; the first, of 42 faces, is open at (1, 0, 0)".
+/// Empty if all components have one.
 std::string describeOpen(const PreparedSurface& surface,
                          const std::vector<MeshComponent>& components,
                          const GridTransform& transform) {
@@ -56,7 +57,7 @@ std::vector<Index> facesOf(const std::vector<MeshComponent>& components, MeshCom
   return faces;
 }
 
-/// The polygons of a level, as they are voxelized.
+/// The polygons of a level cut into triangles, as they are voxelized.
 PolygonMesh triangulated(const PolygonMesh& mesh) {
   PolygonMesh cut;
   cut.points = mesh.points;
@@ -101,7 +102,7 @@ void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
   warnings.push_back(open);
 }
 
-openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& black,
+openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& active,
                                std::span<const PreparedSurface> surfaces,
                                const MemoryBudget& budget, const Progress& progress) {
   std::vector<std::vector<MeshComponent>> components;
@@ -126,7 +127,7 @@ openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& black,
   };
   if (std::any_of(components.begin(), components.end(), hasCavity)) areCavities = areInCavities;
   progress.check();
-  return filled(black, areCavities);
+  return filled(active, areCavities);
 }
 
 }  // namespace vox

@@ -1,4 +1,4 @@
-// The work of a conversion, as its progress is told of it beforehand.
+// Announces the work of a conversion to its progress.
 
 #include "libvox/pipeline/plan.h"
 
@@ -10,7 +10,7 @@
 namespace vox {
 namespace {
 
-/// Voxels of a level set beside those of a surface, about.
+/// Approximate number of voxels of a level set for each voxel of the surface.
 constexpr double kVoxelsOfBand = 4;
 
 double workOfWriting(GridKind kind, double area) {

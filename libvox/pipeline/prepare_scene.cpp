@@ -1,4 +1,4 @@
-// From a scene to surfaces in index space, with what will become of them.
+// From a scene to surfaces in index space.
 
 #include "libvox/pipeline/prepare_scene.h"
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kAdvice = "use fewer levels, or raise --max-memory";
 
-/// Repeats a mesh error with the file and object it is about.
+/// Adds the names of file and object to mesh errors.
 template <class Work>
 auto namingObject(const Scene& scene, const SceneObject& object, Work&& work) {
   try {
@@ -34,10 +34,10 @@ auto namingObject(const Scene& scene, const SceneObject& object, Work&& work) {
   }
 }
 
-/// Where the vertices of a prepared mesh come from.
+/// The input vertices that the vertices of a prepared mesh come from.
 struct VertexOrigin {
-  std::vector<Index> weldedTo;  ///< per vertex of the input: the one it was welded to, or itself
-  std::vector<Index> of;        ///< per prepared vertex: a vertex of the input
+  std::vector<Index> weldedTo;  ///< for each input vertex: the one that it was welded to, or itself
+  std::vector<Index> of;        ///< for each prepared vertex: an input vertex
 };
 
 /// The mesh of an object made sound; a warning tells what was done to it.
@@ -58,8 +58,7 @@ PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& prep
   return mesh;
 }
 
-/// The vertices of the prepared mesh that some vertices of the input have become: each with all
-/// its copies.
+/// The vertices of the prepared mesh that come from some input vertices, copies included.
 std::vector<Index> verticesFrom(std::span<const Index> inputVertices, const VertexOrigin& origin) {
   std::vector<Index> wanted(origin.weldedTo.size(), kNone);
   for (const Index v : inputVertices) {
@@ -90,12 +89,12 @@ std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
   return mesh.cornerCount() * kPerCorner + mesh.pointCount() * kPerVertex;
 }
 
-/// Every step makes four times as much as the one before.
+/// Share of step k in the work: every step makes four times as much as the step before.
 double partOfStep(int k, int levels) {
   return 3 * std::ldexp(1.0, 2 * (k - 1)) / (std::ldexp(1.0, 2 * levels) - 1);
 }
 
-/// append (polygon_mesh.h), if they fit.
+/// append (polygon_mesh.h), if all elements fit in 32 bits.
 void appendWithin(PolygonMesh& all, PolygonMesh part) {
   if (std::uint64_t{all.cornerCount()} + part.cornerCount() >= kNone ||
       std::uint64_t{all.pointCount()} + part.pointCount() >= kNone)
