@@ -474,6 +474,15 @@ expect 2 "unknown fault 'holes'" check torus.vdb --ignore holes
 expect 3 "has no grid 'fog'" check torus.vdb --grid fog
 expect 3 'nowhere.vdb: no such file' check nowhere.vdb
 expect 4 'needs about' check torus.vdb --mesh "$scenes/torus.toml" --max-memory 1M
+# Damaged metadata in a file whose UUID does not show it.
+expect 0 '' convert "$scenes/torus.toml" -o damaged.vdb --dim 20 --weld 1e-9
+python3 - damaged.vdb <<'PY'
+import sys
+content = bytearray(open(sys.argv[1], "rb").read().replace(b"weld=1.0", b"weld=abc"))
+content[21 + 14] = ord("4")  # the version of the UUID: no hash of ours
+open(sys.argv[1], "wb").write(content)
+PY
+expect 3 "damaged.vdb: vox_options has 'weld=abc" check damaged.vdb --mesh "$scenes/torus.toml"
 expect 0 'active voxels' convert "$scenes/gallery.toml" -o verified.vdb --dim 100 --verify
 
 # What needs care at the edges.

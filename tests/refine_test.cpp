@@ -1,6 +1,7 @@
 #include "libvox/pipeline/refine.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/progress.h"
 #include "tests/scenes.h"
 #include "tests/shapes.h"
 

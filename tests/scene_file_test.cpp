@@ -103,13 +103,6 @@ TEST_CASE("an object has smoothing options of its own", "[scene]") {
   CHECK(first.interpolate == Interpolate::kBoth);
   CHECK(first.interpolatedVertices == std::vector<Index>{2, 0});
   CHECK_FALSE(scene.objects[1].smoothing.boundary.has_value());
-
-  // These are one choice: an option for either of them replaces both.
-  const SmoothingOptions none = {{}, Interpolate::kNothing, {}};
-  CHECK(overriding(none, first).boundary == BoundaryRule::kFree);
-  CHECK(overriding(none, first).interpolate == Interpolate::kNothing);
-  CHECK_FALSE(overriding(none, first).interpolatedVertices.has_value());
-  CHECK(overriding({}, first).interpolatedVertices == std::vector<Index>{2, 0});
 }
 
 TEST_CASE("the scene and an object may have stop rules", "[scene]") {

@@ -45,24 +45,6 @@ std::vector<openvdb::Coord> voxelsOf(const Conversion& conversion) {
 
 }  // namespace
 
-TEST_CASE("the first options win over the second, option by option", "[volume]") {
-  VolumeOptions first;
-  VolumeOptions second;
-  first.gain = 2;
-  first.up = UpAxis::kY;
-  second.gain = 3;
-  second.half = true;
-  second.compression = Compression::kZip;
-  second.target = Target::kHoudini;
-  const VolumeOptions all = overriding(first, second);
-  CHECK(all.gain == 2);
-  CHECK(all.up == UpAxis::kY);
-  CHECK(all.half == true);
-  CHECK(all.compression == Compression::kZip);
-  CHECK(all.target == Target::kHoudini);
-  CHECK_FALSE(all.fill.has_value());
-}
-
 TEST_CASE("the turn of the up axis is a rotation, and can be undone", "[volume]") {
   for (const Turn turn : {Turn::kNoTurn, Turn::kYToZ, Turn::kZToY}) {
     const GridTransform transform{0.5, turn};

@@ -13,6 +13,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/active_voxels.h"
+#include "libvox/grid/mark_brick.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
 #include "libvox/grid/voxel_means.h"
@@ -47,7 +48,9 @@ SubdivisionLevel preparedAt(const PolygonMesh& mesh, int dim) {
   Scene scene;
   scene.objects.push_back({"mesh", mesh});
   Progress unwatched;
-  SubdivisionLevel base = prepare(scene, scene.objects[0], {}, MemoryBudget(0), unwatched).base;
+  SubdivisionLevel base =
+      prepare(scene, scene.objects[0], preparationsOf(scene, {})[0], MemoryBudget(0), unwatched)
+          .base;
   const GridTransform transform = transformForDim(usedBox(mesh), dim);
   for (Vec3d& point : base.mesh.points) point = transform.toIndex(point);
   return base;

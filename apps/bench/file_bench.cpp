@@ -5,6 +5,7 @@
 #include "apps/bench/file_bench.h"
 
 #include "apps/bench/inputs.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/io/read_vdb.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/pipeline/convert.h"

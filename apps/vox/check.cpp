@@ -1,6 +1,8 @@
-// vox check: whether a .vdb file is what it should be.
+// vox check: faults of a .vdb file.
 
 #include "apps/vox/command.h"
+#include "apps/vox/counted.h"
+#include "apps/vox/json.h"
 #include "apps/vox/options.h"
 #include "apps/vox/verify.h"
 #include "libvox/core/error.h"
@@ -11,9 +13,8 @@
 #include "libvox/inspect/lint.h"
 #include "libvox/inspect/topology.h"
 #include "libvox/io/read_vdb.h"
-#include "libvox/options/voxelize.h"
-
-#include <nlohmann/json.hpp>
+#include "libvox/options/option_text.h"
+#include "libvox/pipeline/request.h"
 
 #include <algorithm>
 #include <iostream>
@@ -23,13 +24,11 @@
 namespace vox::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int kFaulty = 1;
 constexpr const char* kLeak = "leak";
 constexpr const char* kTunnel = "tunnel";
 
-struct Options {
+struct CheckArguments {
   std::string file;
   std::string mesh;
   std::string grid;
@@ -42,9 +41,9 @@ struct Options {
   bool json = false;
 };
 
-/// What is found.
+/// Result of the check.
 struct Check {
-  std::string grid;  ///< whose voxels are looked at; "" for none
+  std::string grid;  ///< whose voxels are checked; "" if there is none
   std::uint64_t activeVoxels = 0;
   std::vector<Component> components;
   std::vector<Component> enclosed;
@@ -59,7 +58,7 @@ std::vector<std::string> listOf(const std::string& text) {
   return words;
 }
 
-std::vector<std::string> ignoredCodes(const Options& options) {
+std::vector<std::string> ignoredCodes(const CheckArguments& options) {
   std::vector<std::string> known = {kLeak, kTunnel};
   for (const LintRule& rule : lintRules()) known.emplace_back(rule.code);
   const std::vector<std::string> codes = listOf(options.ignore);
@@ -72,8 +71,8 @@ std::vector<std::string> ignoredCodes(const Options& options) {
   return codes;
 }
 
-/// The grid whose voxels are the surface; null if there is none and none is asked for.
-openvdb::GridBase::Ptr chooseGrid(const VdbFile& file, const Options& options) {
+/// The grid whose voxels are the surface; null if the file has none and the options need none.
+openvdb::GridBase::Ptr chooseGrid(const VdbFile& file, const CheckArguments& options) {
   const auto named = [&](const std::string& name) -> openvdb::GridBase::Ptr {
     for (const NamedGrid& grid : file.grids)
       if (grid.name == name) return grid.grid;
@@ -95,43 +94,46 @@ std::string metadataOf(const openvdb::GridBase& grid, const std::string& key) {
   return value ? value->str() : std::string();
 }
 
-/// What the file says of how it was made, as far as the command line says nothing.
-/// @throws UsageError  it says there were files that it does not hold
-ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const Options& options) {
-  ConvertOptions made;
-  made.smoothing = parseSmoothing(options.smoothing);
-  made.weldTolerance = options.weldTolerance;
-  if (!options.until.empty()) made.until = parseUntil({{options.until}, {}, {}});
-  std::istringstream words(metadataOf(grid, "vox_options"));
-  for (std::string word; words >> word;) {
-    const std::size_t equals = std::min(word.find('='), word.size() - 1);
-    const std::string key = word.substr(0, equals);
-    const std::string value = word.substr(equals + 1);
-    if (key == "boundary" && !made.smoothing.boundary)
-      made.smoothing.boundary = namedIn(kBoundaryRuleNames, value);
-    if (key == "interpolate" && !made.smoothing.interpolate)
-      made.smoothing.interpolate = namedIn(kInterpolateNames, value);
-    if (key == "weld" && !made.weldTolerance) made.weldTolerance = std::stod(value);
-    if (key == "until" && !made.until) made.until = stopRuleNamed(value);
-    if (key == "voxelize") made.voxelize = namedIn(kVoxelizeNames, value);
-    if (key == "target") made.volume.target = namedIn(kTargetNames, value);
-    if (key == "up") made.volume.up = namedIn(kUpAxisNames, value);
-    if (key == "interpolated-vertices" && !made.smoothing.interpolatedVertices)
-      throw UsageError(options.file +
-                       ": was made with --interpolate-vertices; give the same file here");
+/// The options that the file was made with; those of the command line win.
+/// @throws InputError  the metadata is damaged, or of another program
+/// @throws UsageError  the file was made with a list of vertices, which it does not hold
+ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const CheckArguments& options) {
+  RecordedOptions recorded = parseOptionText(metadataOf(grid, kOptionsMetadata));
+  ConvertOptions& made = recorded.options;
+  const std::string guarantee = metadataOf(grid, kGuaranteeMetadata);
+  if (!guarantee.empty()) made.separation = parseGuarantee(guarantee);
+  const SmoothingOptions given = parseSmoothing(options.smoothing);
+  if (recorded.interpolatedVertices && !given.interpolatedVertices)
+    throw UsageError(options.file +
+                     ": was made with --interpolate-vertices; give the same file here");
+  if (given.boundary) made.smoothing.boundary = given.boundary;
+  if (given.interpolate) made.smoothing.interpolate = given.interpolate;
+  made.smoothing.interpolatedVertices = given.interpolatedVertices;
+  if (options.weldTolerance) made.weldTolerance = options.weldTolerance;
+  if (!options.until.empty()) {
+    made.until = parseUntil({{options.until}, {}, {}});
+    if (!made.until->untilVoxel()) made.voxelize.reset();  // limits leave no choice
   }
-  if (metadataOf(grid, "vox_guarantee") == "26-separating") made.separation = Separation::k26;
   made.run = options.run;
   return made;
 }
 
+/// The same, with the name of the file in messages.
+ConvertOptions optionsOfNamedFile(const openvdb::GridBase& grid, const CheckArguments& options) {
+  try {
+    return optionsOfFile(grid, options);
+  } catch (const InputError& wrong) {
+    throw InputError(options.file + ": " + wrong.what());
+  }
+}
+
 void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
-               const Options& options, Check& check) {
+               const CheckArguments& options, Check& check) {
   if (!grid.transform().isLinear() || !grid.hasUniformVoxels())
     throw InputError(options.file + ": a mesh can be held against voxels that are cubes only");
-  ConvertOptions made = optionsOfFile(grid, options);
-  made.voxelSize = grid.voxelSize().x();
-  check.objects = checkObjects(voxels, readScene(options.mesh), made);
+  const ConvertOptions made = optionsOfNamedFile(grid, options);
+  const Scene scene = readScene(options.mesh);
+  check.objects = checkObjects(voxels, scene, resolve(scene, made), grid.voxelSize().x());
   for (const ObjectCheck& object : check.objects)
     if (object.separation.tunnels > 0)
       check.findings.push_back({kTunnel, check.grid,
@@ -150,7 +152,7 @@ void checkLeaks(const openvdb::MaskTree& voxels, Check& check) {
   }
 }
 
-Check checkFile(const Options& options) {
+Check checkFile(const CheckArguments& options) {
   const std::vector<std::string> ignored = ignoredCodes(options);
   Check check;
   check.findings = lintVdb(options.file);
@@ -180,7 +182,7 @@ Json toJson(const std::vector<Component>& components) {
   return json;
 }
 
-Json toJson(const Options& options, const Check& check) {
+Json toJson(const CheckArguments& options, const Check& check) {
   Json json = {{"file", options.file},
                {"ok", check.findings.empty()},
                {"grid", check.grid},
@@ -201,11 +203,7 @@ Json toJson(const Options& options, const Check& check) {
   return json;
 }
 
-std::string counted(std::uint64_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-void print(const Options& options, const Check& check) {
+void print(const CheckArguments& options, const Check& check) {
   if (!check.grid.empty()) {
     std::uint64_t within = 0;
     for (const Component& space : check.enclosed) within += space.voxels;
@@ -225,7 +223,7 @@ void print(const Options& options, const Check& check) {
             << '\n';
 }
 
-int run(const Options& options) {
+int runCheck(const CheckArguments& options) {
   const Check check = onThreads(options.run.threads, [&] { return checkFile(options); });
   if (options.json)
     std::cout << toJson(options, check).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
@@ -249,40 +247,40 @@ std::string footer() {
 }  // namespace
 
 Action addCheck(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "check", "Find faults of a .vdb file: tunnels, leaks, grids that viewers do not show");
-  const auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->file, "OpenVDB file (.vdb) of any program")->required();
+  const Command command(
+      app, "check", "Find faults of a .vdb file: tunnels, leaks, grids that viewers do not show");
+  const auto options = std::make_shared<CheckArguments>();
+  command.add("FILE", options->file, "OpenVDB file (.vdb) of any program").required();
   command
-      ->add_option("--mesh", options->mesh,
-                   "Scene or mesh that the file was made from. The voxels are compared with its "
-                   "surface, which is made again: they must leave no tunnels")
-      ->type_name("INPUT")
-      ->group("Surface");
+      .add("--mesh", options->mesh,
+           "Scene or mesh that the file was made from. The voxels are compared with its "
+           "surface, which is made again: they must leave no tunnels")
+      .type("INPUT")
+      .group("Surface");
   command
-      ->add_option("--grid", options->grid,
-                   "Grid whose active voxels are the surface (default: mask, or density)")
-      ->type_name("NAME")
-      ->group("Surface");
-  addSmoothingOptions(*command, options->smoothing);
+      .add("--grid", options->grid,
+           "Grid whose active voxels are the surface (default: mask, or density)")
+      .type("NAME")
+      .group("Surface");
+  addSmoothingOptions(command, options->smoothing);
   command
-      ->add_option("--until", options->until,
-                   "--until of the conversion that made the file. By default this and all other "
-                   "options of the conversion are read from the metadata of the file")
-      ->type_name("voxel|levels=K")
-      ->group("Surface");
-  addWeldOption(*command, options->weldTolerance);
+      .add("--until", options->until,
+           "--until of the conversion that made the file. By default this and all other "
+           "options of the conversion are read from the metadata of the file")
+      .type("voxel|levels=K")
+      .group("Surface");
+  addWeldOption(command, options->weldTolerance);
   command
-      ->add_option("--ignore", options->ignore,
-                   "Faults that do not count, with commas; their names are below")
-      ->type_name("LIST")
-      ->group("Output");
-  command->add_flag("--json", options->json, "Print JSON")->group("Output");
-  command->add_flag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
-      ->group("Output");
-  addRunOptions(*command, options->run);
-  command->footer(footer());
-  return [options] { return run(*options); };
+      .add("--ignore", options->ignore,
+           "Faults that do not count, with commas; their names are below")
+      .type("LIST")
+      .group("Output");
+  command.addFlag("--json", options->json, "Print JSON").group("Output");
+  command.addFlag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
+      .group("Output");
+  addRunOptions(command, options->run);
+  command.footer(footer());
+  return [options] { return runCheck(*options); };
 }
 
 }  // namespace vox::app

@@ -30,7 +30,7 @@
 namespace vox::app {
 namespace {
 
-struct Options {
+struct ConvertArguments {
   std::vector<std::string> inputs;
   std::string output;
   ConversionArguments conversion;
@@ -42,7 +42,7 @@ struct Options {
   CommonOptions common;
 };
 
-void sayReport(const Options& options, const FinishedRun& run) {
+void sayReport(const ConvertArguments& options, const FinishedRun& run) {
   const ConvertReport& report = run.conversion.report;
   for (const std::string& warning : report.warnings) say(options.common, "warning: " + warning);
   std::ostringstream line;
@@ -53,7 +53,7 @@ void sayReport(const Options& options, const FinishedRun& run) {
   for (const std::string& more : reportLines(run)) say(options.common, more);
 }
 
-void write(const Options& options, const std::string& output, const Conversion& conversion,
+void write(const ConvertArguments& options, const std::string& output, const Conversion& conversion,
            Progress& progress) {
   if (!isStdout(output)) {
     writeGrids(output, conversion, options.common.force, &progress);
@@ -64,7 +64,7 @@ void write(const Options& options, const std::string& output, const Conversion& 
   std::cout << bytes.view();
 }
 
-void writeReport(const Options& options, const FinishedRun& run) {
+void writeReport(const ConvertArguments& options, const FinishedRun& run) {
   AtomicFile file(options.report, options.common.force);
   file.stream() << reportJson(run);
   file.commit();
@@ -80,10 +80,9 @@ std::string about(double count) {
 }
 
 /// Prints what a conversion would make.
-void printEstimate(const Options& options, const Scene& scene,
-                   const ConvertOptions& convertOptions) {
+void printEstimate(const ConvertArguments& options, const Scene& scene, const Request& request) {
   std::vector<std::string> warnings;
-  const Estimate made = estimate(scene, convertOptions, warnings);
+  const Estimate made = estimate(scene, request, warnings);
   for (const std::string& warning : warnings) say(options.common, "warning: " + warning);
   if (!made.refusal.empty()) throw LimitError(made.refusal);
   const auto bytes = [](double count) { return formatBytes(static_cast<std::uint64_t>(count)); };
@@ -98,8 +97,8 @@ void printEstimate(const Options& options, const Scene& scene,
             << bytes(made.fileBytes) << " in the file\n";
 }
 
-/// Checks, before the work starts, what is to be written.
-void requireOutputs(const Options& options, const Frame& frame, const Scene& scene) {
+/// Checks the outputs before the work starts.
+void requireOutputs(const ConvertArguments& options, const Frame& frame, const Scene& scene) {
   requireOutput(frame.output, options.common, scene);
   if (options.report.empty()) return;
   requireOutput(options.report, options.common, scene);
@@ -107,7 +106,7 @@ void requireOutputs(const Options& options, const Frame& frame, const Scene& sce
     throw UsageError(options.report + ": is the output, too; choose another name");
 }
 
-ConvertOptions parse(const Options& options) {
+ConvertOptions parse(const ConvertArguments& options) {
   if (options.output.empty() && !options.dryRun)
     throw UsageError("--output is required; or see what it would be with --dry-run");
   if (!options.output.empty() && !isStdout(options.output) &&
@@ -129,43 +128,40 @@ Conversion& conversionOfProcess() {
 
 /// One voxel size for all frames, by the box of them all, so that they share one transform. Checks
 /// all inputs and outputs on the way.
-void shareVoxelSize(const Options& options, const std::vector<Frame>& frames,
+void shareVoxelSize(const ConvertArguments& options, const std::vector<Frame>& frames,
                     ConvertOptions& convertOptions) {
   if (!options.report.empty())
     throw UsageError("--report needs a single input, not " + std::to_string(frames.size()));
   Box box;
+  Resolution resolution;  // of the options, else of the first scene that sets one
   for (const Frame& frame : frames) {
     const Scene scene = readScene(frame.input);
     if (!options.dryRun) requireOutputs(options, frame, scene);
-    if (!convertOptions.dim && !convertOptions.voxelSize) {
-      convertOptions.dim = scene.dim;
-      convertOptions.voxelSize = scene.voxelSize;
-    }
+    if (!resolution.isSet()) resolution = resolutionOf(scene, convertOptions);
     box.add(boxOf(scene));
   }
-  if (!convertOptions.voxelSize)
-    convertOptions.voxelSize =
-        transformForDim(box, convertOptions.dim.value_or(kDefaultDim)).voxelSize;
+  convertOptions.voxelSize = transformFor(resolution, box).voxelSize;
   convertOptions.dim.reset();
 }
 
-void runFrame(const Options& options, const Frame& frame, ConvertOptions convertOptions) {
+void runFrame(const ConvertArguments& options, const Frame& frame, ConvertOptions convertOptions) {
   ProgressBar bar(!options.common.quiet);
   const Stopwatch reading;
   const Scene scene = readScene(frame.input);
   const double readSeconds = reading.seconds();
-  if (options.dryRun) return printEstimate(options, scene, convertOptions);
+  if (options.dryRun) return printEstimate(options, scene, resolve(scene, convertOptions));
   requireOutputs(options, frame, scene);
 
   Progress progress(bar.callback());
   convertOptions.run.progress = &progress;
+  const Request request = resolve(scene, convertOptions);
   Conversion& conversion = conversionOfProcess();
   double writeSeconds = 0;
   {
     const CancelOnSignal cancelOnSignal(progress);
     conversion = {};  // the frame before
-    conversion = convert(scene, convertOptions);
-    if (options.verify) verify(conversion, scene, convertOptions);
+    conversion = convert(scene, request);
+    if (options.verify) verify(conversion, scene, request);
     const Stopwatch writing;
     onThreads(options.common.run.threads,
               [&] { write(options, frame.output, conversion, progress); });
@@ -180,7 +176,7 @@ void runFrame(const Options& options, const Frame& frame, ConvertOptions convert
   sayReport(options, finished);
 }
 
-int run(const Options& options) {
+int runConvert(const ConvertArguments& options) {
   ConvertOptions convertOptions = parse(options);
   const std::vector<Frame> frames = framesOf(options.inputs, options.output);
   if (frames.size() > 1) shareVoxelSize(options, frames, convertOptions);
@@ -191,56 +187,55 @@ int run(const Options& options) {
 }  // namespace
 
 Action addConvert(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("convert", "Convert a mesh or scene into a smooth voxel model (.vdb)");
-  const auto options = std::make_shared<Options>();
+  const Command command(app, "convert", "Convert a mesh or scene into a smooth voxel model (.vdb)");
+  const auto options = std::make_shared<ConvertArguments>();
   command
-      ->add_option("INPUT", options->inputs,
-                   "Scene (.toml) or mesh (.obj .ply .off .stl .om). Several inputs, or a pattern "
-                   "such as mesh.####.obj, become a sequence out.####.vdb with one voxel size")
-      ->required()
-      ->type_name("");
-  command->add_option("-o,--output", options->output, "OpenVDB file to write; - for stdout")
-      ->type_name("OUT.vdb")
-      ->group("Output");
-  addResolutionOptions(*command, options->conversion.resolution);
-  addSmoothingOptions(*command, options->conversion.smoothing);
-  addVoxelizationOptions(*command, options->conversion.voxelization);
-  addWeldOption(*command, options->conversion.weldTolerance);
-  addStrictOption(*command, options->conversion.strict);
+      .add("INPUT", options->inputs,
+           "Scene (.toml) or mesh (.obj .ply .off .stl .om). Several inputs, or a pattern "
+           "such as mesh.####.obj, become a sequence out.####.vdb with one voxel size")
+      .required()
+      .type("");
+  command.add("-o,--output", options->output, "OpenVDB file to write; - for stdout")
+      .type("OUT.vdb")
+      .group("Output");
+  addResolutionOptions(command, options->conversion.resolution);
+  addSmoothingOptions(command, options->conversion.smoothing);
+  addVoxelizationOptions(command, options->conversion.voxelization);
+  addWeldOption(command, options->conversion.weldTolerance);
+  addStrictOption(command, options->conversion.strict);
   command
-      ->add_option("--grids", options->grids,
-                   "Grids to write, with commas: " + allNamesIn(kGridNames) +
-                       " (default: the scene's, or density)")
-      ->type_name("LIST")
-      ->group("Output");
+      .add("--grids", options->grids,
+           "Grids to write, with commas: " + allNamesIn(kGridNames) +
+               " (default: the scene's, or density)")
+      .type("LIST")
+      .group("Output");
   command
-      ->add_option("--texture", options->conversion.texture,
-                   "Solid texture of all objects, in the grid color: " + allTextureNames() +
-                       "; with parameters: marble:scale=0.2,seed=3 (default: the scene's textures, "
-                       "or the colours of the meshes)")
-      ->type_name("KIND[:KEY=VALUE,...]")
-      ->group("Output");
-  addVolumeOptions(*command, options->volume);
-  addFileOptions(*command, options->volume);
-  addSubmeshOptions(*command, options->conversion.submeshes);
+      .add("--texture", options->conversion.texture,
+           "Solid texture of all objects, in the grid color: " + allTextureNames() +
+               "; with parameters: marble:scale=0.2,seed=3 (default: the scene's textures, "
+               "or the colours of the meshes)")
+      .type("KIND[:KEY=VALUE,...]")
+      .group("Output");
+  addVolumeOptions(command, options->volume);
+  addFileOptions(command, options->volume);
+  addSubmeshOptions(command, options->conversion.submeshes);
   command
-      ->add_option("--report", options->report,
-                   "Write times, counts and memory of each stage and object to a file, as JSON")
-      ->type_name("FILE.json")
-      ->group("Output");
+      .add("--report", options->report,
+           "Write times, counts and memory of each stage and object to a file, as JSON")
+      .type("FILE.json")
+      .group("Output");
   command
-      ->add_flag("--verify", options->verify,
-                 "Check the voxels against the surface, as vox check --mesh does, before the file "
-                 "is written; exit code 1 if they fail")
-      ->group("Output");
+      .addFlag("--verify", options->verify,
+               "Check the voxels against the surface, as vox check --mesh does, before the file "
+               "is written; exit code 1 if they fail")
+      .group("Output");
   command
-      ->add_flag("--dry-run", options->dryRun,
-                 "Print an estimate of voxels, memory, levels and file size, within a factor of "
-                 "about 1.5, and write nothing")
-      ->group("Run");
-  addCommonOptions(*command, options->common);
-  return [options] { return run(*options); };
+      .addFlag("--dry-run", options->dryRun,
+               "Print an estimate of voxels, memory, levels and file size, within a factor of "
+               "about 1.5, and write nothing")
+      .group("Run");
+  addCommonOptions(command, options->common);
+  return [options] { return runConvert(*options); };
 }
 
 }  // namespace vox::app

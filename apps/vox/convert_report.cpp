@@ -1,20 +1,16 @@
-// What vox convert did, as JSON and as text.
+// The report of vox convert, as JSON and as text.
 
 #include "apps/vox/convert_report.h"
 
+#include "apps/vox/json.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/version.h"
-#include "libvox/grid/openvdb.h"
 #include "libvox/options/voxelize.h"
-
-#include <nlohmann/json.hpp>
 
 #include <sstream>
 
 namespace vox::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 double perVoxel(const ObjectReport& object) {
   return static_cast<double>(object.vertices) / static_cast<double>(object.activeVoxels);
@@ -37,28 +33,13 @@ Json toJson(const ObjectReport& object) {
           {"triangles", object.polygons.triangles},
           {"fanned_polygons", object.polygons.fanned},
           {"active_voxels", object.activeVoxels},
-          // Infinity, when others have had all its voxels before, is null in JSON.
+          // Infinite if earlier objects have all of its voxels: null in JSON.
           {"vertices_per_voxel", perVoxel(object)},
           {"interpolation",
            {{"boundary_vertices", interpolation.boundaryVertices},
             {"interior_vertices", interpolation.lift.vertices},
             {"iterations", interpolation.lift.iterations},
             {"residual", interpolation.lift.residual}}}};
-}
-
-Json gridNames(const FinishedRun& run) {
-  Json names = Json::array();
-  for (const auto& grid : run.conversion.grids) names.push_back(grid->getName());
-  return names;
-}
-
-template <class Value>
-Json orNull(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json();
-}
-template <class Enum, std::size_t N>
-Json orNull(const NameTable<Enum, N>& names, const std::optional<Enum>& value) {
-  return value ? Json(nameIn(names, *value)) : Json();
 }
 
 Json toJson(const VolumeOptions& volume) {
@@ -73,7 +54,7 @@ Json toJson(const VolumeOptions& volume) {
           {"up", orNull(kUpAxisNames, volume.up)}};
 }
 
-/// What was asked for; null where nothing was, and the scene or a default decided.
+/// The options that were given; null if the scene or the default decided.
 Json optionsJson(const FinishedRun& run) {
   const ConvertOptions& options = run.options;
   const SmoothingOptions& smoothing = options.smoothing;
@@ -91,7 +72,7 @@ Json optionsJson(const FinishedRun& run) {
       {"until", options.until ? Json(stopRuleName(*options.until)) : Json()},
       {"voxelize", options.voxelize ? Json(nameIn(kVoxelizeNames, *options.voxelize)) : Json()},
       {"separating", options.separation == Separation::k26 ? 26 : 6},
-      {"grids", options.grids ? gridNames(run) : Json()},
+      {"grids", options.grids ? Json(namesOf(run.conversion)) : Json()},
       {"texture", options.texture ? Json(textureText(*options.texture)) : Json()},
       {"localize", nameIn(kLocalizeNames, options.surface.localize)},
       {"submesh_faces", options.surface.submeshFaces},
@@ -103,7 +84,9 @@ Json optionsJson(const FinishedRun& run) {
 
 Json memoryJson(const Conversion& conversion) {
   Json grids = Json::object();
-  for (const auto& grid : conversion.grids) grids[grid->getName()] = grid->memUsage();
+  const std::vector<std::string> names = namesOf(conversion);
+  const std::vector<std::uint64_t> bytes = memoryOf(conversion);
+  for (std::size_t i = 0; i < names.size(); ++i) grids[names[i]] = bytes[i];
   return {{"peak_resident_bytes", peakMemory()}, {"grid_bytes", grids}};
 }
 
@@ -154,7 +137,7 @@ std::string reportJson(const FinishedRun& run) {
                      {"options", optionsJson(run)},
                      {"threads", report.threads},
                      {"voxel_size", report.voxelSize},
-                     {"grids", gridNames(run)},
+                     {"grids", namesOf(run.conversion)},
                      {"active_voxels", report.activeVoxels},
                      {"objects", objects},
                      {"seconds",
@@ -183,8 +166,10 @@ std::vector<std::string> reportLines(const FinishedRun& run) {
         << run.writeSeconds;
   lines.push_back(times.str());
   std::string memory = "memory: peak " + formatBytes(peakMemory());
-  for (const auto& grid : run.conversion.grids)
-    memory += ", " + grid->getName() + " " + formatBytes(grid->memUsage());
+  const std::vector<std::string> names = namesOf(run.conversion);
+  const std::vector<std::uint64_t> bytes = memoryOf(run.conversion);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    memory += ", " + names[i] + " " + formatBytes(bytes[i]);
   lines.push_back(memory);
   return lines;
 }

@@ -7,7 +7,7 @@
 
 namespace vox::app {
 
-/// What a conversion was, for those who want to know.
+/// A conversion and its times.
 struct FinishedRun {
   const Scene& scene;
   const ConvertOptions& options;
@@ -17,10 +17,10 @@ struct FinishedRun {
   double writeSeconds;
 };
 
-/// As JSON, for --report.
+/// Report as JSON, for --report.
 std::string reportJson(const FinishedRun& run);
 
-/// In short, line by line, for --verbose.
+/// Short report, line by line, for --verbose.
 std::vector<std::string> reportLines(const FinishedRun& run);
 
 }  // namespace vox::app

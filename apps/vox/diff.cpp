@@ -1,14 +1,14 @@
-// vox diff: what differs between two .vdb files.
+// vox diff: the differences of two .vdb files.
 
 #include "libvox/inspect/diff.h"
 
 #include "apps/vox/command.h"
+#include "apps/vox/counted.h"
+#include "apps/vox/json.h"
 #include "apps/vox/options.h"
 #include "libvox/core/error.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/input_file.h"
-
-#include <nlohmann/json.hpp>
 
 #include <iostream>
 #include <memory>
@@ -17,11 +17,9 @@
 namespace vox::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int kDifferent = 1;
 
-struct Options {
+struct DiffArguments {
   std::string a, b;
   DiffOptions diff;
   std::string grids;
@@ -31,11 +29,6 @@ struct Options {
   bool quiet = false;
   bool json = false;
 };
-
-template <class T>
-Json orNull(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
 
 Json toJson(const std::vector<TextDiff>& texts) {
   Json json = Json::array();
@@ -70,10 +63,6 @@ Json toJson(const GridDiff& grid) {
           {"metadata", toJson(grid.metadata)},
           {"topology", toJson(grid.topology)},
           {"values", grid.values ? toJson(*grid.values) : Json()}};
-}
-
-std::string counted(std::uint64_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 std::string at(const std::optional<VoxelIndex>& voxel) {
@@ -136,7 +125,7 @@ void print(const FileDiff& diff) {
   print(diff.metadata, "metadata ");
 }
 
-void requireNames(const Options& options) {
+void requireNames(const DiffArguments& options) {
   if (options.output.empty()) return;
   if (lowerExtension(options.output) != ".vdb")
     throw UsageError(options.output + ": the file of --output must end in .vdb");
@@ -146,7 +135,7 @@ void requireNames(const Options& options) {
   requireWritable(options.output, options.force);
 }
 
-int run(Options options) {
+int runDiff(DiffArguments options) {
   options.diff.metadata = !options.noMetadata;
   std::istringstream names(options.grids);
   for (std::string name; std::getline(names, name, ',');) options.diff.onlyGrids.push_back(name);
@@ -171,38 +160,38 @@ int run(Options options) {
 }  // namespace
 
 Action addDiff(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("diff", "Compare two .vdb files");
-  const auto options = std::make_shared<Options>();
-  command->add_option("A", options->a, "OpenVDB file")->required();
-  command->add_option("B", options->b, "OpenVDB file to compare it with")->required();
+  const Command command(app, "diff", "Compare two .vdb files");
+  const auto options = std::make_shared<DiffArguments>();
+  command.add("A", options->a, "OpenVDB file").required();
+  command.add("B", options->b, "OpenVDB file to compare it with").required();
   command
-      ->add_option("--tolerance", options->diff.absoluteTolerance,
-                   "Values may differ by this much (default: 0)")
-      ->type_name("T")
-      ->group("Comparison");
+      .add("--tolerance", options->diff.absoluteTolerance,
+           "Values may differ by this much (default: 0)")
+      .type("T")
+      .group("Comparison");
   command
-      ->add_option("--relative", options->diff.relativeTolerance,
-                   "Values may differ, in addition, by this fraction of the larger one (default: "
-                   "0)")
-      ->type_name("R")
-      ->group("Comparison");
-  command->add_option("--grids", options->grids, "Grids to compare, with commas (default: all)")
-      ->type_name("LIST")
-      ->group("Comparison");
-  command->add_flag("--no-metadata", options->noMetadata, "Do not compare metadata")
-      ->group("Comparison");
+      .add("--relative", options->diff.relativeTolerance,
+           "Values may differ, in addition, by this fraction of the larger one (default: "
+           "0)")
+      .type("R")
+      .group("Comparison");
+  command.add("--grids", options->grids, "Grids to compare, with commas (default: all)")
+      .type("LIST")
+      .group("Comparison");
+  command.addFlag("--no-metadata", options->noMetadata, "Do not compare metadata")
+      .group("Comparison");
   command
-      ->add_option("-o,--output", options->output,
-                   "Write the differences as grids: NAME_only_a, NAME_only_b, NAME_difference")
-      ->type_name("OUT.vdb")
-      ->group("Output");
-  command->add_flag("-f,--force", options->force, "Overwrite an existing output file")
-      ->group("Output");
-  command->add_flag("--json", options->json, "Print JSON")->group("Output");
-  command->add_flag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
-      ->group("Output");
-  command->footer("Exit code 0: the same; 1: different.");
-  return [options] { return run(*options); };
+      .add("-o,--output", options->output,
+           "Write the differences as grids: NAME_only_a, NAME_only_b, NAME_difference")
+      .type("OUT.vdb")
+      .group("Output");
+  command.addFlag("-f,--force", options->force, "Overwrite an existing output file")
+      .group("Output");
+  command.addFlag("--json", options->json, "Print JSON").group("Output");
+  command.addFlag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
+      .group("Output");
+  command.footer("Exit code 0: the same; 1: different.");
+  return [options] { return runDiff(*options); };
 }
 
 }  // namespace vox::app

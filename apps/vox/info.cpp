@@ -1,13 +1,14 @@
-// vox info: what is in a mesh, scene or .vdb file, and what preparation makes of a mesh.
+// vox info: properties of a mesh, scene or .vdb file, and of the mesh after preparation.
 
 #include "apps/vox/command.h"
+#include "apps/vox/counted.h"
+#include "apps/vox/json.h"
 #include "apps/vox/options.h"
 #include "libvox/inspect/summary.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/scene_file.h"
+#include "libvox/pipeline/request.h"
 #include "libvox/prepare/sound.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -19,9 +20,7 @@
 namespace vox::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct Options {
+struct InfoArguments {
   std::vector<std::string> files;
   bool json = false;
   std::optional<double> weldTolerance;
@@ -97,10 +96,6 @@ std::string histogramText(const std::map<std::uint64_t, std::uint64_t>& histogra
   return text.str();
 }
 
-std::string counted(std::uint64_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 std::string surfaceText(const MeshSummary& mesh) {
   std::string text = mesh.closed ? "closed, " : "open, ";
   text += mesh.orientable ? "orientable, " : "not orientable, ";
@@ -138,7 +133,7 @@ void print(const std::string& title, const MeshSummary& mesh) {
     if (!defect.message.empty()) std::cout << "      " << defect.message << '\n';
 }
 
-/// A mesh as it is, what preparation does to it, and what `vox convert` then sees.
+/// A mesh as it is, the repairs of preparation, and the mesh after them.
 Json describe(const SceneObject& object, double weldTolerance, bool json) {
   const MeshSummary input = summarize(object.mesh);
   RepairOptions options;
@@ -176,7 +171,7 @@ void print(const GridSummary& grid) {
     if (key.starts_with("vox_")) std::cout << "    " << key << "  " << value << '\n';
 }
 
-Json describe(const std::string& file, const Options& options) {
+Json describe(const std::string& file, const InfoArguments& options) {
   Json all = {{"file", file}};
   if (!options.json) std::cout << file << '\n';
   if (lowerExtension(file) == ".vdb") {
@@ -187,13 +182,15 @@ Json describe(const std::string& file, const Options& options) {
     return all;
   }
   const Scene scene = readScene(file);
-  const double weld = options.weldTolerance.value_or(scene.weldTolerance.value_or(0));
-  for (const SceneObject& object : scene.objects)
-    all["meshes"].push_back(describe(object, weld, options.json));
+  PreparationOptions preparation;
+  preparation.weldTolerance = options.weldTolerance;
+  const std::vector<ObjectPreparation> prepared = preparationsOf(scene, preparation);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    all["meshes"].push_back(describe(scene.objects[i], prepared[i].weldTolerance, options.json));
   return all;
 }
 
-int run(const Options& options) {
+int runInfo(const InfoArguments& options) {
   Json all = Json::array();
   for (const std::string& file : options.files) all.push_back(describe(file, options));
   if (options.json) std::cout << all.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
@@ -203,14 +200,12 @@ int run(const Options& options) {
 }  // namespace
 
 Action addInfo(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("info", "Print the contents of meshes, scenes and .vdb files");
-  const auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)")
-      ->required();
-  command->add_flag("--json", options->json, "Print JSON");
-  addWeldOption(*command, options->weldTolerance);
-  return [options] { return run(*options); };
+  const Command command(app, "info", "Print the contents of meshes, scenes and .vdb files");
+  const auto options = std::make_shared<InfoArguments>();
+  command.add("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)").required();
+  command.addFlag("--json", options->json, "Print JSON");
+  addWeldOption(command, options->weldTolerance);
+  return [options] { return runInfo(*options); };
 }
 
 }  // namespace vox::app

@@ -1,4 +1,4 @@
-// Signals: a run is cancelled first, the process ended next.
+// Signals: the first one cancels the run, the next one ends the process.
 
 #include "apps/vox/interrupt.h"
 
@@ -36,7 +36,7 @@ extern "C" void onSignal(int) {
 void handleSignals() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP})
     if (std::signal(number, onSignal) == SIG_IGN) std::signal(number, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file too large is an error of the write
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that becomes too large is an error of the write
 }
 
 CancelOnSignal::CancelOnSignal(Progress& run) {
@@ -45,7 +45,7 @@ CancelOnSignal::CancelOnSignal(Progress& run) {
 
 CancelOnSignal::~CancelOnSignal() {
   running = nullptr;
-  while (handlersAtWork > 0) ::usleep(1);  // one on another thread may still hold the run
+  while (handlersAtWork > 0) ::usleep(1);  // a handler on another thread may still use the run
 }
 
 }  // namespace vox::app

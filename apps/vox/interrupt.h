@@ -8,7 +8,8 @@ namespace vox::app {
 /// leaves no partial file, unless the caller of the program chose to ignore it.
 void handleSignals();
 
-/// As long as it lives, the first such signal cancels a run instead. One at a time.
+/// As long as this object lives, the first such signal cancels the run instead. Only one object at
+/// a time.
 class CancelOnSignal {
  public:
   explicit CancelOnSignal(Progress& run);

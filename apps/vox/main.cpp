@@ -8,6 +8,8 @@
 #include "libvox/core/progress.h"
 #include "libvox/core/version.h"
 
+#include <CLI/CLI.hpp>
+
 #include <iostream>
 #include <new>
 #include <span>

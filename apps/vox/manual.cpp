@@ -4,6 +4,8 @@
 
 #include "libvox/core/version.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <map>
 #include <sstream>

@@ -39,7 +39,7 @@ std::uint64_t parseBytes(const std::string& text) {
   const bool known = unit.size() <= 1 && power != std::string_view::npos;
   const double bytes = known ? value * std::pow(1024.0, static_cast<double>(power)) : -1;
   if (used == 0 || !(bytes >= 1) || bytes > 1e18)
-    throw CLI::ValidationError("--max-memory", "must be a size such as 512M or 8G, not " + text);
+    throw UsageError("--max-memory: must be a size such as 512M or 8G, not " + text);
   return static_cast<std::uint64_t>(bytes);
 }
 
@@ -57,67 +57,65 @@ std::optional<Enum> parseNamed(const char* option, const NameTable<Enum, N>& nam
 
 }  // namespace
 
-void addRunOptions(CLI::App& command, RunOptions& run) {
+void addRunOptions(const Command& command, RunOptions& run) {
   constexpr int kMostThreads = 1024;
-  command.add_option("--threads", run.threads, "Threads to use (default: all processors)")
-      ->check(CLI::Range(1, kMostThreads))
-      ->type_name("N")
-      ->group("Run");
+  command.add("--threads", run.threads, "Threads to use (default: all processors)")
+      .range(1, kMostThreads)
+      .type("N")
+      .group("Run");
   command
-      .add_option_function<std::string>(
+      .add(
           "--max-memory", [&run](const std::string& text) { run.maxMemory = parseBytes(text); },
           "Memory for meshes and grids, such as 512M or 8G (default: three quarters of what is "
           "available)")
-      ->type_name("SIZE")
-      ->group("Run");
+      .type("SIZE")
+      .group("Run");
 }
 
-void addCommonOptions(CLI::App& command, CommonOptions& common) {
+void addCommonOptions(const Command& command, CommonOptions& common) {
   addRunOptions(command, common.run);
-  command.add_flag("-f,--force", common.force, "Overwrite an existing output file")->group("Run");
-  command.add_flag("-q,--quiet", common.quiet, "Print errors only")->group("Run");
-  command.add_flag("-v,--verbose", common.verbose, "Print what was done to each object, and times")
-      ->group("Run");
+  command.addFlag("-f,--force", common.force, "Overwrite an existing output file").group("Run");
+  command.addFlag("-q,--quiet", common.quiet, "Print errors only").group("Run");
+  command.addFlag("-v,--verbose", common.verbose, "Print what was done to each object, and times")
+      .group("Run");
 }
 
-void addResolutionOptions(CLI::App& command, ResolutionOptions& resolution) {
-  auto* dim = command
-                  .add_option_function<int>(
-                      "--dim", [&resolution](int n) { resolution.dim = n; },
-                      "Voxels along the longest side of the input (default: the scene's, or 256)")
-                  ->check(CLI::Range(1, std::numeric_limits<int>::max()))
-                  ->type_name("N")
-                  ->group("Resolution");
+void addResolutionOptions(const Command& command, ResolutionOptions& resolution) {
+  const Option dim =
+      command
+          .add("--dim", resolution.dim,
+               "Voxels along the longest side of the input (default: the scene's, or 256)")
+          .range(1, std::numeric_limits<int>::max())
+          .type("N")
+          .group("Resolution");
   command
-      .add_option_function<double>(
-          "--voxel-size", [&resolution](double size) { resolution.voxelSize = size; },
-          "Edge length of a voxel in world units, instead of --dim")
-      ->excludes(dim)
-      ->type_name("S")
-      ->group("Resolution");
+      .add("--voxel-size", resolution.voxelSize,
+           "Edge length of a voxel in world units, instead of --dim")
+      .excludes(dim)
+      .type("S")
+      .group("Resolution");
 }
 
-void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments) {
+void addSmoothingOptions(const Command& command, SmoothingArguments& arguments) {
   command
-      .add_option(
-          "--boundary", arguments.boundary,
-          "Where an open surface ends: at a smooth curve along the boundary of the mesh "
-          "(extend), or short of it, because smoothing shrinks the surface (free) (default: "
-          "the scene's, or extend)")
-      ->type_name("extend|free")
-      ->group("Smoothing");
+      .add("--boundary", arguments.boundary,
+           "Where an open surface ends: at a smooth curve along the boundary of the mesh "
+           "(extend), or short of it, because smoothing shrinks the surface (free) (default: "
+           "the scene's, or extend)")
+      .type("extend|free")
+      .group("Smoothing");
   command
-      .add_option("--interpolate", arguments.interpolate,
-                  "Vertices that the surface passes through: none, interior, boundary or both "
-                  "(default: the scene's, or none)")
-      ->type_name("WHICH")
-      ->group("Smoothing");
+      .add("--interpolate", arguments.interpolate,
+           "Vertices that the surface passes through: none, interior, boundary or both "
+           "(default: the scene's, or none)")
+      .type("WHICH")
+      .group("Smoothing");
   command
-      .add_option("--interpolate-vertices", arguments.vertexFile,
-                  "Text file with the numbers of further interior vertices that the surface passes "
-                  "through, counted from 0, separated by blanks; # starts a comment")
-      ->type_name("FILE")
-      ->group("Smoothing");
+      .add("--interpolate-vertices", arguments.vertexFile,
+           "Text file with the numbers of further interior vertices that the surface passes "
+           "through, counted from 0, separated by blanks; # starts a comment")
+      .type("FILE")
+      .group("Smoothing");
 }
 
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
@@ -129,33 +127,30 @@ SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   return smoothing;
 }
 
-void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments) {
+void addVoxelizationOptions(const Command& command, VoxelizationArguments& arguments) {
   command
-      .add_option(
+      .addRepeatable(
           "--until", arguments.until,
           "How far to subdivide: down to the size of a voxel (voxel); or until the polygons keep a "
           "limit, and then scan-convert them. Limits: levels=K steps (0: the polygons of the "
           "input), faces of at most diameter=D voxels, at most angle=DEG degrees between adjacent "
           "faces, at most flatness=D voxels from the smooth surface. Of several limits, the first "
           "to be met counts (default: the scene's, or voxel)")
-      ->type_name("voxel|levels=K|diameter=D|angle=DEG|flatness=D")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false)
-      ->group("Voxels");
+      .type("voxel|levels=K|diameter=D|angle=DEG|flatness=D")
+      .group("Voxels");
   command
-      .add_option(
-          "--voxelize", arguments.voxelize,
-          "How the surface becomes voxels: by its vertices (vertex; needs --until voxel), by scan "
-          "conversion of its polygons (polygon), or by vertices where --until and --separating "
-          "allow it (auto) (default: the scene's, or auto)")
-      ->type_name("auto|vertex|polygon")
-      ->group("Voxels");
+      .add("--voxelize", arguments.voxelize,
+           "How the surface becomes voxels: by its vertices (vertex; needs --until voxel), by scan "
+           "conversion of its polygons (polygon), or by vertices where --until and --separating "
+           "allow it (auto) (default: the scene's, or auto)")
+      .type("auto|vertex|polygon")
+      .group("Voxels");
   command
-      .add_option("--separating", arguments.separating,
-                  "Paths of inactive voxels that the surface stops: those through faces (6), or "
-                  "also those through edges and corners (26) (default: 6)")
-      ->type_name("6|26")
-      ->group("Voxels");
+      .add("--separating", arguments.separating,
+           "Paths of inactive voxels that the surface stops: those through faces (6), or "
+           "also those through edges and corners (26) (default: 6)")
+      .type("6|26")
+      .group("Voxels");
 }
 
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments) {
@@ -174,70 +169,65 @@ Separation parseSeparation(const VoxelizationArguments& arguments) {
   throw UsageError("--separating must be 6 or 26, not '" + arguments.separating + "'");
 }
 
-void addVolumeOptions(CLI::App& command, VolumeArguments& arguments) {
+void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
   command
-      .add_option("--fill", arguments.fill,
-                  "What the grid density holds: the voxels of the surface (surface), or these and "
-                  "all voxels that they enclose (solid) (default: the scene's, or surface)")
-      ->type_name("surface|solid")
-      ->group("Output");
+      .add("--fill", arguments.fill,
+           "What the grid density holds: the voxels of the surface (surface), or these and "
+           "all voxels that they enclose (solid) (default: the scene's, or surface)")
+      .type("surface|solid")
+      .group("Output");
   command
-      .add_option_function<double>(
-          "--gain", [&arguments](double gain) { arguments.gain = gain; },
-          "Value of the grid density at its voxels (default: the scene's, or 6 / voxel size, at "
-          "least 1, which makes a surface opaque in Blender; 1 for --target houdini)")
-      ->type_name("G")
-      ->group("Output");
+      .add("--gain", arguments.gain,
+           "Value of the grid density at its voxels (default: the scene's, or 6 / voxel size, at "
+           "least 1, which makes a surface opaque in Blender; 1 for --target houdini)")
+      .type("G")
+      .group("Output");
   command
-      .add_option(
-          "--open-mesh", arguments.openMesh,
-          "What happens to a component without an inside, if --fill solid or the grid surface "
-          "needs one: an error (error); it stays a surface, one voxel thick in the grid surface "
-          "(surface); or its distances there have no sign (unsigned) (default: the scene's, or "
-          "surface)")
-      ->type_name("error|surface|unsigned")
-      ->group("Output");
+      .add("--open-mesh", arguments.openMesh,
+           "What happens to a component without an inside, if --fill solid or the grid surface "
+           "needs one: an error (error); it stays a surface, one voxel thick in the grid surface "
+           "(surface); or its distances there have no sign (unsigned) (default: the scene's, or "
+           "surface)")
+      .type("error|surface|unsigned")
+      .group("Output");
   command
-      .add_option_function<double>(
-          "--band", [&arguments](double band) { arguments.band = band; },
-          "Half width of the grid surface, in voxels (default: the scene's, or 3)")
-      ->type_name("W")
-      ->group("Output");
+      .add("--band", arguments.band,
+           "Half width of the grid surface, in voxels (default: the scene's, or 3)")
+      .type("W")
+      .group("Output");
   command
-      .add_option_function<double>(
-          "--tolerance", [&arguments](double distance) { arguments.tolerance = distance; },
-          "Largest distance, in voxels, from the smooth surface to the polygons that the grid "
-          "surface is computed from (default: the scene's, or 0.05)")
-      ->type_name("T")
-      ->group("Output");
+      .add("--tolerance", arguments.tolerance,
+           "Largest distance, in voxels, from the smooth surface to the polygons that the grid "
+           "surface is computed from (default: the scene's, or 0.05)")
+      .type("T")
+      .group("Output");
 }
 
-void addFileOptions(CLI::App& command, VolumeArguments& arguments) {
+void addFileOptions(const Command& command, VolumeArguments& arguments) {
   command
-      .add_flag_function(
-          "--half", [&arguments](std::int64_t count) { arguments.half = count > 0; },
-          "Write values as floats of 16 bits (default: the scene's, or 32 bits)")
-      ->group("Output");
+      .addFlag("--half", arguments.half,
+               "Write values as floats of 16 bits (default: the scene's, or 32 bits)")
+      .group("Output");
   command
-      .add_option("--compression", arguments.compression,
-                  "Compression of the file: blosc is fast, zip is slow, both are without loss "
-                  "(default: the scene's, or blosc)")
-      ->type_name("blosc|zip|none")
-      ->group("Output");
+      .add("--compression", arguments.compression,
+           "Compression of the file: blosc is fast, zip is slow, both are without loss "
+           "(default: the scene's, or blosc)")
+      .type("blosc|zip|none")
+      .group("Output");
   command
-      .add_option("--target", arguments.target,
-                  "Program that will read the file. It decides the names of grids and which way is "
-                  "up; blender-3.4 also moves all grids by half a voxel, because that version "
-                  "draws them so far off (default: the scene's, or blender)")
-      ->type_name("blender|blender-3.4|houdini")
-      ->group("Output");
+      .add("--target", arguments.target,
+           "Program that will read the file. It decides the names of grids and which way is "
+           "up; blender-3.4 also moves all grids by half a voxel, because that version "
+           "draws them so far off (default: the scene's, or blender)")
+      .type("blender|blender-3.4|houdini")
+      .group("Output");
   command
-      .add_option("--up", arguments.up,
-                  "Axis of the input that points up. The model is turned if another axis points up "
-                  "in the target: z in Blender, y in Houdini (default: the scene's, or nothing is "
-                  "turned)")
-      ->type_name("y|z")
-      ->group("Output");
+      .add("--up", arguments.up,
+           "Axis of the input that points up. The model is turned if another axis points up "
+           "in the target: z in Blender, y in Houdini (default: the scene's, or nothing is "
+           "turned)")
+      .type("y|z")
+      .group("Output");
 }
 
 VolumeOptions parseVolume(const VolumeArguments& arguments) {
@@ -254,41 +244,38 @@ VolumeOptions parseVolume(const VolumeArguments& arguments) {
   return volume;
 }
 
-void addWeldOption(CLI::App& command, std::optional<double>& tolerance) {
+void addWeldOption(const Command& command, std::optional<double>& tolerance) {
   command
-      .add_option_function<double>(
-          "--weld", [&tolerance](double distance) { tolerance = distance; },
-          "Join vertices up to this far apart, in world units (default: the scene's, or 0: those "
-          "at exactly the same place)")
-      ->type_name("TOL")
-      ->group("Repair");
+      .add("--weld", tolerance,
+           "Join vertices up to this far apart, in world units (default: the scene's, or 0: those "
+           "at exactly the same place)")
+      .type("TOL")
+      .group("Repair");
 }
 
-void addStrictOption(CLI::App& command, std::optional<bool>& strict) {
+void addStrictOption(const Command& command, std::optional<bool>& strict) {
   command
-      .add_flag_function(
-          "--strict", [&strict](std::int64_t count) { strict = count > 0; },
-          "Refuse a mesh that needs any repair or turning of faces (default: the scene's, or "
-          "repair it and say what was done)")
-      ->group("Repair");
+      .addFlag("--strict", strict,
+               "Refuse a mesh that needs any repair or turning of faces (default: the scene's, or "
+               "repair it and say what was done)")
+      .group("Repair");
 }
 
-void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments) {
+void addSubmeshOptions(const Command& command, SubmeshArguments& arguments) {
   command
-      .add_option(
-          "--localize", arguments.localize,
-          "How the work is divided into tasks: one for each submesh (before); large patches of a "
-          "submesh become further tasks (during, the default); or not at all: the whole mesh is "
-          "subdivided level by level, slowly and in much memory, for comparison (off)")
-      ->type_name("before|during|off")
-      ->group("Submeshes");
+      .add("--localize", arguments.localize,
+           "How the work is divided into tasks: one for each submesh (before); large patches of a "
+           "submesh become further tasks (during, the default); or not at all: the whole mesh is "
+           "subdivided level by level, slowly and in much memory, for comparison (off)")
+      .type("before|during|off")
+      .group("Submeshes");
   constexpr Index kMostFaces = Index{1} << 31U;
   command
-      .add_option("--submesh-faces", arguments.submeshFaces,
-                  "Faces of a submesh (default: " + std::to_string(kDefaultSubmeshFaces) + ")")
-      ->check(CLI::Range(Index{1}, kMostFaces))
-      ->type_name("N")
-      ->group("Submeshes");
+      .add("--submesh-faces", arguments.submeshFaces,
+           "Faces of a submesh (default: " + std::to_string(kDefaultSubmeshFaces) + ")")
+      .range(Index{1}, kMostFaces)
+      .type("N")
+      .group("Submeshes");
 }
 
 SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments) {

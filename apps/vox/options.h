@@ -1,18 +1,8 @@
 #pragma once
 
+#include "apps/vox/command.h"
 #include "libvox/io/scene_file.h"
-#include "libvox/options/grid_kind.h"
-#include "libvox/options/preparation_options.h"
-#include "libvox/options/run_options.h"
-#include "libvox/options/smoothing_options.h"
-#include "libvox/options/stop_rule.h"
-#include "libvox/options/volume_options.h"
-#include "libvox/options/voxelize.h"
-#include "libvox/pipeline/convert.h"
-#include "libvox/pipeline/surface.h"
-#include "libvox/voxelize/scan.h"
-
-#include <CLI/CLI.hpp>
+#include "libvox/options/convert_options.h"
 
 #include <optional>
 #include <string>
@@ -27,17 +17,17 @@ struct CommonOptions {
   bool quiet = false;
   bool verbose = false;
 };
-void addCommonOptions(CLI::App& command, CommonOptions& common);
+void addCommonOptions(const Command& command, CommonOptions& common);
 
-/// --threads and --max-memory, of the common options.
-void addRunOptions(CLI::App& command, RunOptions& run);
+/// --threads and --max-memory.
+void addRunOptions(const Command& command, RunOptions& run);
 
 /// --dim and --voxel-size.
 struct ResolutionOptions {
   std::optional<int> dim;
   std::optional<double> voxelSize;
 };
-void addResolutionOptions(CLI::App& command, ResolutionOptions& resolution);
+void addResolutionOptions(const Command& command, ResolutionOptions& resolution);
 
 /// --boundary, --interpolate and --interpolate-vertices, as typed.
 struct SmoothingArguments {
@@ -45,9 +35,9 @@ struct SmoothingArguments {
   std::string interpolate;
   std::string vertexFile;
 };
-void addSmoothingOptions(CLI::App& command, SmoothingArguments& arguments);
+void addSmoothingOptions(const Command& command, SmoothingArguments& arguments);
 
-/// What they mean; reads the file of vertices.
+/// Their values; reads the file of vertices.
 /// @throws UsageError, InputError
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments);
 
@@ -57,9 +47,9 @@ struct VoxelizationArguments {
   std::string voxelize;
   std::string separating;
 };
-void addVoxelizationOptions(CLI::App& command, VoxelizationArguments& arguments);
+void addVoxelizationOptions(const Command& command, VoxelizationArguments& arguments);
 
-/// What they mean; nothing if not said.
+/// Their values; empty if they are not given.
 /// @throws UsageError
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
@@ -77,29 +67,29 @@ struct VolumeArguments {
   std::optional<double> tolerance;
   std::optional<bool> half;
 };
-void addVolumeOptions(CLI::App& command, VolumeArguments& arguments);
-void addFileOptions(CLI::App& command, VolumeArguments& arguments);
+void addVolumeOptions(const Command& command, VolumeArguments& arguments);
+void addFileOptions(const Command& command, VolumeArguments& arguments);
 
-/// What they mean.
+/// Their values.
 /// @throws UsageError
 VolumeOptions parseVolume(const VolumeArguments& arguments);
 
-/// --weld, as said.
-void addWeldOption(CLI::App& command, std::optional<double>& tolerance);
+/// --weld.
+void addWeldOption(const Command& command, std::optional<double>& tolerance);
 
-/// --strict, as said; --strict=false overrides a scene.
-void addStrictOption(CLI::App& command, std::optional<bool>& strict);
+/// --strict; --strict=false overrides a scene.
+void addStrictOption(const Command& command, std::optional<bool>& strict);
 
 /// --localize and --submesh-faces, as typed.
 struct SubmeshArguments {
   std::string localize;
   Index submeshFaces = kDefaultSubmeshFaces;
 };
-void addSubmeshOptions(CLI::App& command, SubmeshArguments& arguments);
+void addSubmeshOptions(const Command& command, SubmeshArguments& arguments);
 /// @throws UsageError
 SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments);
 
-/// How a mesh or scene becomes voxels, as typed: what vox convert and vox render share.
+/// Options of vox convert and vox render that tell how a mesh or scene becomes voxels, as typed.
 struct ConversionArguments {
   ResolutionOptions resolution;
   SmoothingArguments smoothing;
@@ -109,7 +99,7 @@ struct ConversionArguments {
   SubmeshArguments submeshes;
   std::string texture;
 };
-/// What they mean; reads the file of vertices.
+/// Their values; reads the file of vertices.
 /// @throws UsageError, InputError
 ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOptions& run);
 
@@ -120,7 +110,7 @@ std::vector<GridKind> parseGrids(const std::string& names);
 /// "-": data goes to standard output.
 bool isStdout(const std::string& file);
 
-/// Whether two names stand for one file, which need not exist.
+/// True if two names mean the same file, which need not exist.
 bool isSameFile(const std::string& a, const std::string& b);
 
 /// Checks, before the work starts, that the output can be written and is none of the inputs.

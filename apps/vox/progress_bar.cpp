@@ -12,7 +12,7 @@
 namespace vox::app {
 namespace {
 
-/// Whether stderr understands how to erase a line.
+/// True if stderr is a terminal that can erase a line.
 bool onTerminal() {
   const char* const kind = std::getenv("TERM");
   return ::isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";

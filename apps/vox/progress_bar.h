@@ -6,8 +6,8 @@
 
 namespace vox::app {
 
-/// One line on stderr that shows how far a run has come, drawn over itself; only on a terminal, and
-/// only when the run takes longer than a moment. Erased in the end.
+/// A line on stderr that shows how far a run has come; only on a terminal, and only if the run
+/// takes longer than a moment. Every update replaces the line; the end erases it.
 class ProgressBar {
  public:
   explicit ProgressBar(bool wanted);
@@ -15,7 +15,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// What the progress of the run is to call; nothing, when there is no terminal.
+  /// Callback for the progress of the run; empty if there is no terminal.
   Progress::Callback callback();
   void erase();
 

@@ -1,4 +1,4 @@
-// vox render: a picture of a .vdb file, or of what a mesh or scene becomes.
+// vox render: a picture of a .vdb file, or of the voxels of a mesh or scene.
 
 #include "libvox/render/render.h"
 
@@ -25,7 +25,7 @@
 namespace vox::app {
 namespace {
 
-struct Options {
+struct RenderArguments {
   std::string input;
   std::string output;
   std::string views = "iso";
@@ -39,12 +39,12 @@ struct Options {
   VisibleOptions visible;
   // Of meshes and scenes:
   ConversionArguments conversion;
-  std::vector<const CLI::Option*> meshOptions;  // all of these
-  std::vector<const CLI::Option*> gridOptions;  // those of .vdb files
+  std::vector<Option> meshOptions;  // all of these
+  std::vector<Option> gridOptions;  // those of .vdb files
   CommonOptions common;
 };
 
-/// The whole text as a whole number.
+/// Reads the whole text as an integer.
 template <class Number>
 bool readNumber(std::string_view text, Number& number, int base = 10) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
@@ -93,7 +93,7 @@ Enum chosen(const char* option, const NameTable<Enum, N>& names, const std::stri
   return *value;
 }
 
-RenderOptions parse(const Options& options) {
+RenderOptions parse(const RenderArguments& options) {
   if (!isStdout(options.output) && lowerExtension(options.output) != ".png")
     throw UsageError(options.output + ": the output of vox render must end in .png");
   RenderOptions parsed;
@@ -111,11 +111,10 @@ RenderOptions parse(const Options& options) {
   return parsed;
 }
 
-/// Refuses options that mean nothing for the kind of input.
-void refuse(const std::vector<const CLI::Option*>& given, const std::string& input,
-            const char* why) {
-  for (const CLI::Option* option : given)
-    if (option->count() > 0) throw UsageError(input + ": " + option->get_name() + why);
+/// Refuses options that have no meaning for this kind of input.
+void refuse(const std::vector<Option>& given, const std::string& input, const char* why) {
+  for (const Option& option : given)
+    if (option.isGiven()) throw UsageError(input + ": " + option.name() + why);
 }
 
 bool hasColors(const Scene& scene) {
@@ -124,7 +123,7 @@ bool hasColors(const Scene& scene) {
   });
 }
 
-/// What a picture takes.
+/// The grids that a picture needs.
 std::vector<GridKind> gridsFor(const RenderOptions& options, bool colored) {
   std::vector grids = {GridKind::kMask};
   if (options.shading.shading == Shading::kNormals) grids.push_back(GridKind::kNormal);
@@ -134,27 +133,27 @@ std::vector<GridKind> gridsFor(const RenderOptions& options, bool colored) {
 
 using Grids = std::vector<std::shared_ptr<openvdb::GridBase>>;
 
-Grids readGrids(const Options& options) {
+Grids readGrids(const RenderArguments& options) {
   Grids grids;
   for (NamedGrid& named : readVdb(options.input).grids) grids.push_back(std::move(named.grid));
   return grids;
 }
 
-/// What the progress of rendering is planned with, in the nanoseconds of the other stages.
+/// Expected nanoseconds, as the other stages count their work.
 double workOfRendering(const RenderOptions& options) {
   constexpr double kPerRay = 400;
   return kPerRay * options.width * options.height * static_cast<double>(options.views.size()) *
          options.samples * options.samples * (1 + options.shading.occlusionRays);
 }
 
-void write(const Options& options, const Image& image) {
+void write(const RenderArguments& options, const Image& image) {
   if (isStdout(options.output)) return writePng(std::cout, image);
   AtomicFile output(options.output, options.common.force);
   writePng(output.stream(), image);
   output.commit();
 }
 
-int run(const Options& options) {
+int runRender(const RenderArguments& options) {
   RenderOptions renderOptions = parse(options);
   const bool isVdb = lowerExtension(options.input) == ".vdb";
   refuse(isVdb ? options.meshOptions : options.gridOptions, options.input,
@@ -192,12 +191,9 @@ int run(const Options& options) {
   return 0;
 }
 
-void addPictureOptions(CLI::App& command, Options& options) {
+void addPictureOptions(const Command& command, RenderArguments& options) {
   const auto add = [&](const char* name, auto& value, const std::string& help, const char* type) {
-    return command.add_option(name, value, help)
-        ->type_name(type)
-        ->group("Picture")
-        ->capture_default_str();
+    return command.add(name, value, help).type(type).group("Picture").showDefault();
   };
   add("--view,--views", options.views,
       "Direction to look from: " + allViewNames() +
@@ -215,30 +211,28 @@ void addPictureOptions(CLI::App& command, Options& options) {
       "estimated from the voxels around (congradient); or those of the sides of voxels (flat). A "
       "level set always has its own",
       "WHICH");
-  add("--samples", options.samples, "N x N rays per pixel", "N")
-      ->check(CLI::Range(1, kMostSamples));
+  add("--samples", options.samples, "N x N rays per pixel", "N").range(1, kMostSamples);
   add("--occlusion", options.occlusionRays,
       "Rays per sample that test how much of the sky is hidden; 0: no ambient occlusion", "N")
-      ->check(CLI::Range(0, kMostOcclusionRays));
+      .range(0, kMostOcclusionRays);
 }
 
-void addGridOptions(CLI::App& command, Options& options) {
+void addGridOptions(const Command& command, RenderArguments& options) {
   options.gridOptions = {
       command
-          .add_option("--grid", options.visible.grid,
-                      "Grid to show (default: mask, density, surface or any other grid of numbers)")
-          ->type_name("NAME")
-          ->group("OpenVDB files"),
+          .add("--grid", options.visible.grid,
+               "Grid to show (default: mask, density, surface or any other grid of numbers)")
+          .type("NAME")
+          .group("OpenVDB files"),
       command
-          .add_option_function<double>(
-              "--threshold", [&options](double value) { options.visible.threshold = value; },
-              "Fog above this density is solid (default: a tenth of the largest)")
-          ->type_name("T")
-          ->group("OpenVDB files")};
+          .add("--threshold", options.visible.threshold,
+               "Fog above this density is solid (default: a tenth of the largest)")
+          .type("T")
+          .group("OpenVDB files")};
 }
 
-void addMeshOptions(CLI::App& command, Options& options) {
-  const std::size_t before = command.get_options().size();
+void addMeshOptions(const Command& command, RenderArguments& options) {
+  const std::size_t before = command.options().size();
   addResolutionOptions(command, options.conversion.resolution);
   addSmoothingOptions(command, options.conversion.smoothing);
   addVoxelizationOptions(command, options.conversion.voxelization);
@@ -246,34 +240,33 @@ void addMeshOptions(CLI::App& command, Options& options) {
   addStrictOption(command, options.conversion.strict);
   addSubmeshOptions(command, options.conversion.submeshes);
   command
-      .add_option("--texture", options.conversion.texture,
-                  "Solid texture of all objects, as for vox convert (default: the scene's, or the "
-                  "colours of the mesh)")
-      ->type_name("SPEC")
-      ->group("Texture");
-  const auto all = command.get_options();
+      .add("--texture", options.conversion.texture,
+           "Solid texture of all objects, as for vox convert (default: the scene's, or the "
+           "colours of the mesh)")
+      .type("SPEC")
+      .group("Texture");
+  const auto all = command.options();
   options.meshOptions.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
 }
 
 }  // namespace
 
 Action addRender(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("render", "Draw a .vdb file, or the voxels of a mesh or scene (.png)");
-  const auto options = std::make_shared<Options>();
+  const Command command(app, "render", "Draw a .vdb file, or the voxels of a mesh or scene (.png)");
+  const auto options = std::make_shared<RenderArguments>();
   command
-      ->add_option("INPUT", options->input,
-                   "OpenVDB file (.vdb), scene (.toml) or mesh (.obj .ply .off .stl .om)")
-      ->required();
-  command->add_option("-o,--output", options->output, "PNG file to write; - for stdout")
-      ->required()
-      ->type_name("OUT.png")
-      ->group("Output");
-  addPictureOptions(*command, *options);
-  addGridOptions(*command, *options);
-  addMeshOptions(*command, *options);
-  addCommonOptions(*command, options->common);
-  return [options] { return run(*options); };
+      .add("INPUT", options->input,
+           "OpenVDB file (.vdb), scene (.toml) or mesh (.obj .ply .off .stl .om)")
+      .required();
+  command.add("-o,--output", options->output, "PNG file to write; - for stdout")
+      .required()
+      .type("OUT.png")
+      .group("Output");
+  addPictureOptions(command, *options);
+  addGridOptions(command, *options);
+  addMeshOptions(command, *options);
+  addCommonOptions(command, options->common);
+  return [options] { return runRender(*options); };
 }
 
 }  // namespace vox::app

@@ -38,7 +38,7 @@ struct Place {
   std::size_t digits;
 };
 
-/// ####, %d or %04d, from `begin` on.
+/// The first ####, %d or %04d from `begin` on.
 std::optional<Place> placeAfter(const std::string& name, std::size_t begin) {
   for (std::size_t i = begin; i < name.size(); ++i) {
     if (name[i] == '#') {
@@ -56,7 +56,7 @@ std::optional<Place> placeAfter(const std::string& name, std::size_t begin) {
   return std::nullopt;
 }
 
-/// @throws UsageError  two places
+/// @throws UsageError  the name has two places for a number
 std::optional<Pattern> patternOf(const std::string& file) {
   const std::size_t name = file.find_last_of('/') + 1;  // 0 if there is no folder
   const auto place = placeAfter(file, name);
@@ -66,7 +66,7 @@ std::optional<Pattern> patternOf(const std::string& file) {
   return Pattern{file.substr(0, place->begin), place->digits, file.substr(place->end)};
 }
 
-/// The number of a file that fits, or nothing.
+/// The number of a file; empty if it does not fit the pattern.
 std::optional<std::uint64_t> numberIn(const std::string& file, const Pattern& pattern) {
   const std::size_t around = pattern.before.size() + pattern.after.size();
   if (file.size() <= around || !file.starts_with(pattern.before) || !file.ends_with(pattern.after))

@@ -11,14 +11,15 @@ struct Frame {
   std::string output;
 };
 
-/// The conversions that a command line asks for.
+/// The conversions of a command line.
 ///
-/// A single input is one of them, as it stands, unless its file name holds a run of # (frame
-/// numbers of at least so many digits) or %d, %04d, and there is no file of that very name: then
-/// every file that fits is one, by number. Of several inputs each is one, numbered from 1. The
-/// output of several must have a place for the number: out.####.vdb.
+/// Usually a single input is a single conversion. But if its name holds a pattern (a run of #, one
+/// for each digit of the frame number, or %d or %04d) and no file has that very name, every file
+/// that fits the pattern is a conversion, in the order of the numbers. Several inputs are one
+/// conversion each, numbered from 1. The output of several conversions must have a place for the
+/// number: out.####.vdb.
 ///
-/// @param output  may be empty: nothing is to be written
+/// @param output  empty if nothing is to be written
 /// @throws UsageError  several inputs, but no place for a number in the output, or more than one
 /// @throws InputError  no file fits a pattern
 std::vector<Frame> framesOf(const std::vector<std::string>& inputs, const std::string& output);

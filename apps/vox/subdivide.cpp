@@ -17,7 +17,7 @@
 namespace vox::app {
 namespace {
 
-struct Options {
+struct SubdivideArguments {
   std::string input;
   std::string output;
   int levels = 0;
@@ -34,7 +34,7 @@ std::uint64_t expectedBytes(const PolygonMesh& mesh) {
   return kPerPoint * mesh.pointCount() + kPerCorner * mesh.cornerCount();
 }
 
-void write(const Options& options, const PolygonMesh& mesh, Progress& progress) {
+void write(const SubdivideArguments& options, const PolygonMesh& mesh, Progress& progress) {
   progress.beginLast("write");
   if (isStdout(options.output)) {
     WatchedStream stream(*std::cout.rdbuf(), progress, expectedBytes(mesh));
@@ -48,7 +48,7 @@ void write(const Options& options, const PolygonMesh& mesh, Progress& progress) 
   output.commit();
 }
 
-int run(const Options& options) {
+int runSubdivide(const SubdivideArguments& options) {
   if (!isStdout(options.output)) meshFormatFor(options.output);
   const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
                                           options.strict};
@@ -76,31 +76,30 @@ int run(const Options& options) {
 }  // namespace
 
 Action addSubdivide(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("subdivide", "Write the refined polygon mesh itself");
-  const auto options = std::make_shared<Options>();
-  command->add_option("INPUT", options->input, "Scene (.toml) or mesh (.obj .ply .off .stl .om)")
-      ->required();
+  const Command command(app, "subdivide", "Write the refined polygon mesh itself");
+  const auto options = std::make_shared<SubdivideArguments>();
+  command.add("INPUT", options->input, "Scene (.toml) or mesh (.obj .ply .off .stl .om)")
+      .required();
   command
-      ->add_option("-o,--output", options->output,
-                   "Mesh file to write: .obj, .ply or .off; - for OBJ on stdout")
-      ->required()
-      ->type_name("OUT")
-      ->group("Output");
+      .add("-o,--output", options->output,
+           "Mesh file to write: .obj, .ply or .off; - for OBJ on stdout")
+      .required()
+      .type("OUT")
+      .group("Output");
   constexpr int kMostLevels = 30;
   command
-      ->add_option(
-          "--levels", options->levels,
-          "Doo-Sabin steps; 0 writes the control mesh: the input with its vertices moved where "
-          "--interpolate asks for it")
-      ->required()
-      ->check(CLI::Range(0, kMostLevels))
-      ->type_name("K")
-      ->group("Output");
-  addSmoothingOptions(*command, options->smoothing);
-  addWeldOption(*command, options->weldTolerance);
-  addStrictOption(*command, options->strict);
-  addCommonOptions(*command, options->common);
-  return [options] { return run(*options); };
+      .add("--levels", options->levels,
+           "Doo-Sabin steps; 0 writes the control mesh: the input with its vertices moved where "
+           "--interpolate asks for it")
+      .required()
+      .range(0, kMostLevels)
+      .type("K")
+      .group("Output");
+  addSmoothingOptions(command, options->smoothing);
+  addWeldOption(command, options->weldTolerance);
+  addStrictOption(command, options->strict);
+  addCommonOptions(command, options->common);
+  return [options] { return runSubdivide(*options); };
 }
 
 }  // namespace vox::app

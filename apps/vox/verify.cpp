@@ -1,4 +1,4 @@
-// Voxels held against the surface they were made from.
+// Compares voxels with the surface that they were made from.
 
 #include "apps/vox/verify.h"
 
@@ -9,19 +9,12 @@
 #include "libvox/grid/transform.h"
 #include "libvox/inspect/lint.h"
 #include "libvox/inspect/topology.h"
-#include "libvox/pipeline/choose.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/refined_polygons.h"
 #include "libvox/subdivide/stop.h"
 
 namespace vox::app {
 namespace {
-
-/// What the options say, or else the object, or else the scene, or else the default.
-template <class T>
-T decided(const std::optional<T>& a, const std::optional<T>& b, const std::optional<T>& c) {
-  return a ? *a : b ? *b : c.value_or(T{});
-}
 
 bool facesFitIntoVoxels(const PolygonMesh& mesh) {
   std::vector<Vec3d> corners;
@@ -33,34 +26,30 @@ bool facesFitIntoVoxels(const PolygonMesh& mesh) {
   return true;
 }
 
-/// The smooth surface again, another way: the whole mesh at once, and by the plain algorithm.
+/// The smooth surface, made again in another way: the whole mesh at once, by the plain algorithm.
 ReferenceSurface smoothReference(SubdivisionLevel level, const MemoryBudget& budget,
                                  Progress& progress) {
   while (!facesFitIntoVoxels(level.mesh))
     level = subdividedWithin(budget, std::move(level), 1, progress);
-  // The conversion may stop levels before, at faces as small as a voxel: control points whose
-  // second differences are at most 2 voxels, so that the surface is within 2/8 of them.
+  // The conversion may stop some levels earlier, at faces as small as a voxel. Second differences
+  // of their control points are at most 2 voxels, so the surface is within 2/8 voxels of them.
   constexpr double kTolerance = 0.25;
   return referenceSurface(std::move(level.mesh), kTolerance);
 }
 
 ReferenceSurface referenceOf(const Scene& scene, const SceneObject& object,
-                             const ConvertOptions& options, const MemoryBudget& budget,
-                             Progress& progress) {
-  SubdivisionLevel level = std::move(prepare(scene, object, options, budget, progress).base);
-  GridTransform transform = transformForVoxelSize(*options.voxelSize);
-  const VolumeOptions volume = overriding(options.volume, scene.volume);
-  transform.turn = turnFor(volume.up, volume.target.value_or(Target::kBlender));
+                             const ObjectRequest& request, const GridTransform& transform,
+                             const MemoryBudget& budget, Progress& progress) {
+  SubdivisionLevel level =
+      std::move(prepare(scene, object, request.preparation, budget, progress).base);
   for (Vec3d& point : level.mesh.points) point = transform.toIndex(point);
-  const ConversionWay way =
-      chooseWay(decided(options.until, object.until, scene.until),
-                decided(options.voxelize, object.voxelize, scene.voxelize), options.separation);
+  const ConversionWay& way = request.way;
   if (!way.polygons) return smoothReference(std::move(level), budget, progress);
   const bool uniform = way.until == StopRule{.levels = way.until.levels};
   if (uniform)
     return referenceSurface(
         subdividedWithin(budget, std::move(level), *way.until.levels, progress).mesh, 0);
-  // Polygons that stop here and there have no second implementation.
+  // Polygons that stop at different levels have no second implementation.
   TriangleSoup soup = triangleSoup(level, way.until, progress);
   return {std::move(soup.points), std::move(soup.triangles), 0};
 }
@@ -68,20 +57,24 @@ ReferenceSurface referenceOf(const Scene& scene, const SceneObject& object,
 }  // namespace
 
 std::vector<ObjectCheck> checkObjects(const openvdb::MaskTree& voxels, const Scene& scene,
-                                      const ConvertOptions& options) {
+                                      const Request& request, double voxelSize) {
   Progress unwatched;
-  Progress& progress = options.run.progress != nullptr ? *options.run.progress : unwatched;
-  const MemoryBudget budget(options.run.maxMemory);
+  Progress& progress = request.run.progress != nullptr ? *request.run.progress : unwatched;
+  const MemoryBudget budget(request.run.maxMemory);
+  GridTransform transform = transformForVoxelSize(voxelSize);
+  transform.turn = request.turn;
   std::vector<ObjectCheck> checks;
-  for (const SceneObject& object : scene.objects) {
-    const ReferenceSurface surface = referenceOf(scene, object, options, budget, progress);
-    checks.push_back({object.name, findTunnels(voxels, surface, options.separation)});
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
+    const ReferenceSurface surface =
+        referenceOf(scene, object, request.objects[i], transform, budget, progress);
+    checks.push_back({object.name, findTunnels(voxels, surface, request.separation)});
     progress.check();
   }
   return checks;
 }
 
-void verify(const Conversion& conversion, const Scene& scene, ConvertOptions options) {
+void verify(const Conversion& conversion, const Scene& scene, const Request& request) {
   openvdb::MaskTree::Ptr voxels;
   for (const auto& grid : conversion.grids) {
     for (const LintFinding& finding : lintGrid(*grid))
@@ -90,8 +83,8 @@ void verify(const Conversion& conversion, const Scene& scene, ConvertOptions opt
       if (!voxels && grid->getName() == nameIn(kGridNames, kind)) voxels = topologyOf(*grid);
   }
   if (!voxels) throw UsageError("--verify needs a mask or density grid; name one in --grids");
-  options.voxelSize = conversion.report.voxelSize;
-  for (const ObjectCheck& object : checkObjects(*voxels, scene, options))
+  for (const ObjectCheck& object :
+       checkObjects(*voxels, scene, request, conversion.report.voxelSize))
     if (object.separation.tunnels > 0)
       throw CheckFailed("--verify: " + object.name + ": " + separationText(object.separation));
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "libvox/core/error.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/inspect/separation.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/pipeline/convert.h"
+#include "libvox/pipeline/request.h"
 
 #include <string>
 #include <vector>
@@ -16,26 +18,27 @@ struct ObjectCheck {
   SeparationReport separation;
 };
 
-/// Holds voxels against the surfaces of a scene, object by object. Each is subdivided again, as a
-/// whole, level by level: down to faces that fit into a voxel, or as often as its rule says.
-/// @param options  as for the conversion; `voxelSize` must be set
+/// Looks for tunnels of the surfaces of a scene, object by object. Each surface is made again, as a
+/// whole, level by level: down to faces that fit into a voxel, or to the level of its stop rule.
+/// @param request    as for the conversion
+/// @param voxelSize  of the voxels, world units
 /// @throws LimitError  a refined mesh does not fit into memory; and all that prepare throws
 std::vector<ObjectCheck> checkObjects(const openvdb::MaskTree& voxels, const Scene& scene,
-                                      const ConvertOptions& options);
+                                      const Request& request, double voxelSize);
 
-/// The check says no.
+/// The check found a fault.
 class CheckFailed : public Error {
  public:
   using Error::Error;
   int exitCode() const noexcept override { return 1; }
 };
 
-/// Checks what a conversion has made: that the voxels separate the sides of every surface, that all
-/// grids are free of what lint finds.
+/// Checks what a conversion has made: that the voxels separate the sides of every surface, and that
+/// lint finds no fault in any grid.
 /// @throws CheckFailed  names the first fault
 /// @throws UsageError   there is neither a mask nor a density grid; and all that checkObjects
-/// throws
-void verify(const Conversion& conversion, const Scene& scene, ConvertOptions options);
+///   throws
+void verify(const Conversion& conversion, const Scene& scene, const Request& request);
 
 /// "no tunnels", or how many and where.
 std::string separationText(const SeparationReport& report);

@@ -1,4 +1,4 @@
-// What is compared with what.
+// Pairs of grids to compare, and tolerances.
 
 #include "libvox/inspect/compared.h"
 

@@ -17,8 +17,8 @@
 
 namespace vox {
 
-/// Calls visit(name, a, b) for each name in either file that is to be compared, in order of names;
-/// of the two grids one may be null.
+/// Calls visit(name, a, b) for each grid to compare, in order of names. If only one of the files
+/// has a grid of that name, the other argument is null.
 /// @throws InputError  a name of options.onlyGrids is in neither
 using VisitPair = std::function<void(const std::string& name, const openvdb::GridBase::Ptr& a,
                                      const openvdb::GridBase::Ptr& b)>;
@@ -33,7 +33,7 @@ struct Tolerance {
   explicit Tolerance(const DiffOptions& options);
 };
 
-/// How far apart two values are, and whether that is too far.
+/// How far apart two values are, and if that is more than the tolerance.
 struct Difference {
   double size = 0;
   bool counts = false;
@@ -60,7 +60,7 @@ Difference differenceOf(const Value& a, const Value& b, const Tolerance& toleran
   }
 }
 
-/// The values of a leaf or, where there is none, the one value.
+/// The values of a leaf; if there is no leaf, the one value of the region.
 template <class Leaf>
 class RegionValues {
  public:

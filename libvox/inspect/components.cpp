@@ -1,7 +1,7 @@
-// Connected components, leaf by leaf. The leaves of a tree and its tiles stand in columns along z;
-// the voxels of a leaf fall into pieces, and what lies between two leaves of a column is one piece
-// as a whole. Neighbouring pieces are united. Space where no leaf is above or below is outside, and
-// never looked at.
+// Connected components, leaf by leaf. The leaves and tiles of a tree stand in columns along z. The
+// voxels of a leaf are divided into connected pieces; the space between two leaves of a column is
+// one piece. Neighbouring pieces are united. Space with no leaf above it, or none below it, is
+// outside and needs no piece.
 
 #include "libvox/inspect/components.h"
 
@@ -31,7 +31,7 @@ constexpr std::size_t kLeafLog2 = 3;
 constexpr std::uint64_t kLeafVoxels = 512;
 constexpr LeafWords kAllVoxels = {~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL, ~0ULL};
 
-/// Leaves z0..z1 of a column: one leaf, or a run of leaves that are alike throughout.
+/// Leaves z0..z1 of a column: one leaf, or a run of cubes that hold one value.
 struct Entry {
   std::int32_t x, y, z0, z1;     ///< in leaves
   const Leaf* leaf = nullptr;    ///< null: a run
@@ -83,7 +83,7 @@ bool sameColumn(const Entry& a, const Entry& b) {
   return a.x == b.x && a.y == b.y;
 }
 
-/// The same with what lies between, as runs.
+/// The same with the spaces between them, as runs.
 std::vector<Entry> withGaps(const std::vector<Entry>& entries) {
   std::vector<Entry> all;
   all.reserve(2 * entries.size());
@@ -95,7 +95,7 @@ std::vector<Entry> withGaps(const std::vector<Entry>& entries) {
   return all;
 }
 
-/// Pieces of either the active or the inactive voxels, and who hangs together with whom.
+/// Pieces of the active or of the inactive voxels, and which of them are connected.
 class Pieces {
  public:
   Pieces(std::vector<Entry> entries, bool active)
@@ -157,7 +157,7 @@ class Pieces {
       for (LeafWords left = vox::wordsOf(*entries_[i].leaf, active_); left != LeafWords{};)
         found[i].push_back(takePiece(left, neighbours_));
     });
-    std::uint64_t pieces = 1;  // after the outside
+    std::uint64_t pieces = 1;  // piece 0 is the outside
     for (std::size_t i = 0; i < entries_.size(); ++i) {
       Entry& entry = entries_[i];
       entry.firstPiece = static_cast<std::uint32_t>(pieces);
@@ -192,7 +192,7 @@ class Pieces {
     return Column(entries_).subspan(found->second.first, found->second.second);
   }
 
-  /// First of a column that does not end before z.
+  /// The first one of a column that does not end before z.
   static Column::iterator from(Column column, std::int32_t z) {
     return std::lower_bound(column.begin(), column.end(), z,
                             [](const Entry& entry, std::int32_t at) { return entry.z1 < at; });
@@ -221,7 +221,7 @@ class Pieces {
 
   void uniteLeafWith(const Entry& entry, const Coord& d, const Entry* other) {
     if (other == nullptr && active_) return;
-    // Two leaves find each other twice; once will do.
+    // Two leaves find each other twice; one of the times is enough.
     if (other != nullptr && other->leaf != nullptr && d < Coord(0, 0, 0)) return;
     for (std::uint32_t i = 0; i < entry.pieceCount; ++i) {
       const LeafWords& words = wordsOf(entry, i);
@@ -235,7 +235,8 @@ class Pieces {
     }
   }
 
-  /// With the runs beside it; leaves look for runs themselves.
+  /// Unites a run with the runs beside it. Leaves are united with runs where the leaves are
+  /// visited.
   void uniteRun(const Entry& run) {
     if (run.pieceCount == 0) return;
     const int wide = neighbours_ == Neighbours::k26 ? 1 : 0;

@@ -9,7 +9,7 @@
 
 namespace vox {
 
-/// Voxels that hang together.
+/// A set of connected voxels.
 struct Component {
   std::uint64_t voxels = 0;
   VoxelIndex first{};  ///< lowest x, then y, then z
@@ -20,7 +20,7 @@ struct Component {
 /// @throws LimitError  2^32 pieces or more; the tiles are too large
 std::vector<Component> activeComponents(const openvdb::MaskTree& voxels);
 
-/// The inactive voxels of a tree and how they hang together, face to face (6).
+/// The components of the inactive voxels of a tree, connected face to face (6).
 class Cavities {
  public:
   /// @throws LimitError  as activeComponents
@@ -32,7 +32,7 @@ class Cavities {
   /// Components that the active voxels close off from the space around them, by `first`.
   const std::vector<Component>& enclosed() const { return enclosed_; }
 
-  /// Whether a path of inactive voxels leads from an inactive voxel out of the bounding box.
+  /// True if a path of inactive voxels leads from an inactive voxel out of the bounding box.
   bool isOutside(const VoxelIndex& voxel) const;
 
  private:
@@ -41,9 +41,9 @@ class Cavities {
   std::vector<Component> enclosed_;
 };
 
-/// Spaces that the active voxels would enclose if they were one voxel thicker, but do not: there is
-/// a hole in the shell around each, of one or two voxels.
-/// @param leastVoxels  smaller spaces do not count: folds and corners are full of them
+/// Spaces that the active voxels do not enclose, but would if they were one voxel thicker: the
+/// shell around each has a hole of one or two voxels.
+/// @param leastVoxels  smaller spaces are left out: folds and corners are full of them
 std::vector<Component> leakingSpaces(const openvdb::MaskTree& voxels, std::uint64_t leastVoxels);
 
 }  // namespace vox

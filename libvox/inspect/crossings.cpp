@@ -1,4 +1,4 @@
-// Where a surface crosses the steps from voxel to voxel: parities, exact on a lattice.
+// Steps from voxel to voxel that cross a surface an odd number of times, exact on a lattice.
 
 #include "libvox/inspect/crossings.h"
 
@@ -24,7 +24,7 @@ std::int64_t floorOf(std::int64_t lattice) {
   return lattice >> 16;
 }
 
-/// Whether the column (atU, atV), on the lattice, pierces a triangle.
+/// True if the column (atU, atV), on the lattice, pierces a triangle.
 bool holds(const LatticeTriangle& triangle, std::size_t u, std::size_t v, std::int64_t atU,
            std::int64_t atV) {
   bool inside = false;
@@ -88,8 +88,8 @@ void Crossings::add(const LatticeTriangle& triangle) {
 
 void Crossings::toggle(const LatticeTriangle& triangle, std::size_t u, std::size_t v,
                        std::int64_t atU, std::int64_t atV) {
-  // Relative to a corner, where doubles are exact enough: a step may only be mistaken where the
-  // surface passes through a centre, which is active then.
+  // Relative to a corner, where doubles are exact enough: a step can only be wrong if the surface
+  // passes through a centre, and then that voxel is active.
   const auto relative = [&](std::size_t corner, std::size_t axis) {
     return static_cast<double>(triangle[corner][axis] - triangle[0][axis]);
   };

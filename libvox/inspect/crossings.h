@@ -20,10 +20,10 @@ inline constexpr std::int64_t kLattice = 65536;
 using LatticeEdge = std::array<LatticePoint, 2>;
 using LatticeTriangle = std::array<LatticePoint, 3>;
 
-/// The triangles of a surface, each place once.
+/// The triangles of a surface; triangles at the same place only once.
 std::vector<LatticeTriangle> onLattice(const ReferenceSurface& surface);
 
-/// Sides that not two triangles have.
+/// Sides that do not belong to exactly two triangles.
 std::vector<LatticeEdge> boundaryOf(std::span<const LatticeTriangle> triangles);
 
 /// Steps along one axis that cross the surface an odd number of times, by their lower voxel.
@@ -33,8 +33,9 @@ class Crossings {
 
   const openvdb::MaskTree& odd() const { return odd_; }
 
-  /// Where columns of voxel centres pierce a triangle. A column at a side or corner belongs to one
-  /// of the triangles there, as in any point-in-polygon test by rays of half-open sides.
+  /// Adds the places where columns of voxel centres pierce a triangle. A column that meets a side
+  /// or corner counts for one of the triangles there, as in a point-in-polygon test with half-open
+  /// sides.
   void add(const LatticeTriangle& triangle);
 
  private:

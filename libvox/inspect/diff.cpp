@@ -1,4 +1,4 @@
-// Comparison of grids and of files of them.
+// Comparison of grids and of .vdb files.
 
 #include "libvox/inspect/diff.h"
 
@@ -28,7 +28,7 @@ using LeafMask = openvdb::util::NodeMask<3>;
 
 // Counting
 
-/// What is found in a part of two trees.
+/// Differences in a part of two trees.
 struct Findings {
   TopologyDiff topology;
   ValueDiff values;
@@ -190,7 +190,7 @@ void measureDistance(const Tree& a, const Tree& b, Findings& found) {
   measure(a, found.leavesOnlyB, found.boxesOnlyB);
 }
 
-/// Findings of all parts, in their order whatever thread they come from.
+/// Differences of all parts, in the order of the parts: threads do not matter.
 template <class Tree>
 Findings compareTrees(const Tree& a, const Tree& b, const Tolerance& tolerance) {
   const TreePair<Tree> pair(a, b);

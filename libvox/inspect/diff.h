@@ -28,14 +28,14 @@ struct TopologyDiff {
   std::uint64_t onlyB = 0;
   std::optional<VoxelIndex> first;  ///< lowest (x, then y, then z) that is active in one only
   /// Hausdorff distance of the two sets of active voxels, in voxels: how far the farthest voxel of
-  /// one is from the other. Exact, but within 1 % where whole tiles are in one only; infinite if
-  /// one set is empty and the other not.
+  /// one is from the other. Exact, except where whole tiles are in one only: within 1 %. Infinite
+  /// if one set is empty and the other is not.
   double distance = 0;
 
   bool same() const { return onlyA == 0 && onlyB == 0; }
 };
 
-/// Values of voxels, where two grids are of one type.
+/// How the values of two grids of the same type differ.
 struct ValueDiff {
   std::uint64_t compared = 0;       ///< active in both
   std::uint64_t differing = 0;      ///< of these
@@ -43,13 +43,13 @@ struct ValueDiff {
                                     ///< infinite for a number and NaN
   double rms = 0;                   ///< root of the mean square of the same
   std::optional<VoxelIndex> first;  ///< lowest that differs
-  std::uint64_t inactiveDiffering = 0;  ///< inactive in both, as the far side of a level set
+  std::uint64_t inactiveDiffering = 0;  ///< inactive in both: the far side of a level set, say
   bool backgroundDiffers = false;
 
   bool same() const { return differing == 0 && inactiveDiffering == 0 && !backgroundDiffers; }
 };
 
-/// One key, or one property; "" where there is none.
+/// A key or property that differs; "" where it does not exist.
 struct TextDiff {
   std::string what;
   std::string a, b;
@@ -62,7 +62,7 @@ struct GridDiff {
   std::vector<TextDiff> properties;  ///< type, class, transform, background: those that differ
   std::vector<TextDiff> metadata;    ///< keys that differ
   TopologyDiff topology;
-  std::optional<ValueDiff> values;  ///< nothing where the types differ, or have no values
+  std::optional<ValueDiff> values;  ///< empty if the types differ, or have no values
 
   bool same() const {
     return inA && inB && properties.empty() && metadata.empty() && topology.same() &&
@@ -84,15 +84,15 @@ struct FileDiff {
 GridDiff diffGrids(const openvdb::GridBase& a, const openvdb::GridBase& b,
                    const DiffOptions& options);
 
-/// Compares two files grid by grid, by name. The UUID of the files does not count, nor the
-/// statistics OpenVDB keeps as metadata (file_...).
+/// Compares two files grid by grid, by name. The UUID of the files and the statistics that OpenVDB
+/// keeps as metadata (file_...) do not count.
 /// @throws UsageError  a tolerance is negative or not finite
 /// @throws InputError  a file cannot be read; a grid of `onlyGrids` is in neither
 FileDiff diffVdb(const std::filesystem::path& a, const std::filesystem::path& b,
                  const DiffOptions& options);
 
-/// Writes what differs as grids, to look at: for each grid of both NAME_only_a and NAME_only_b
-/// (masks) and NAME_difference (float, |a - b| at the voxels of both that differ).
+/// Writes the differences as grids. For each grid that both files have: the masks NAME_only_a and
+/// NAME_only_b, and NAME_difference (float, |a - b| at the voxels of both that differ).
 /// @throws InputError, IoError
 void writeDifference(const std::filesystem::path& a, const std::filesystem::path& b,
                      const DiffOptions& options, const std::filesystem::path& file, bool overwrite);

@@ -1,4 +1,4 @@
-// What differs, as grids to look at.
+// Differences as grids, to look at.
 
 #include "libvox/core/version.h"
 #include "libvox/grid/openvdb.h"

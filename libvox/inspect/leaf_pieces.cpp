@@ -38,7 +38,7 @@ LeafWords grown(const LeafWords& words, Neighbours neighbours) {
   return result;
 }
 
-/// What a piece touches in the neighbouring leaf that lies in direction `d`.
+/// The voxels that a piece touches in the neighbouring leaf in direction `d`.
 LeafWords reach(const LeafWords& words, const Coord& d, Neighbours neighbours) {
   const bool wide = neighbours == Neighbours::k26;
   const auto sideways = [&](std::uint64_t word) {
@@ -65,7 +65,6 @@ LeafWords reach(const LeafWords& words, const Coord& d, Neighbours neighbours) {
 
 }  // namespace
 
-/// Takes the piece of the lowest voxel out of what is left of a leaf.
 LeafWords takePiece(LeafWords& left, Neighbours neighbours) {
   LeafWords piece{};
   const auto first = std::find_if(left.begin(), left.end(), [](auto word) { return word != 0; });

@@ -7,20 +7,22 @@
 
 namespace vox {
 
-/// Which voxels hang together: neighbours through faces, or through edges and corners too.
+/// Which voxels are connected: neighbours through faces, or through edges and corners too.
 enum class Neighbours { k6, k26 };
 
-/// Takes the connected piece of the lowest voxel out of what is left of a leaf, which is not empty.
+/// Takes the connected piece of the lowest voxel out of the remaining voxels of a leaf.
+/// @param left  not empty
 LeafWords takePiece(LeafWords& left, Neighbours neighbours);
 
-/// Whether some voxel of a leaf is a neighbour of some voxel of the leaf next to it in direction d,
-/// of -1, 0, 1 each; for k6 one of the six axes.
+/// True if a voxel of a leaf is a neighbour of a voxel of the next leaf in direction d.
+/// @param d  -1, 0 or 1 along each axis; for k6 along one axis only
 bool touch(const LeafWords& words, const openvdb::Coord& d, const LeafWords& other,
            Neighbours neighbours);
 
 std::uint64_t countOf(const LeafWords& words);
 
-/// Lowest voxel in the order of x, y, z; of a leaf that is not empty.
+/// The voxel with the lowest x, then y, then z.
+/// @param words  not empty
 openvdb::Coord firstOf(const LeafWords& words);
 
 }  // namespace vox

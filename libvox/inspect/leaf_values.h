@@ -8,8 +8,8 @@
 
 namespace vox {
 
-/// The values of a leaf of a file that is read on demand, in memory only as long as this lives; of
-/// any other leaf, its own. For leaves whose values are an array: not of masks and bools.
+/// The values of a leaf. If they are in a file that is read on demand, they are in memory only as
+/// long as this object lives. For leaves whose values are an array: not for masks and bools.
 template <class Leaf>
 class LeafValues {
  public:
@@ -25,7 +25,7 @@ class LeafValues {
     try {
       values_ = copy->data();
     } catch (const std::exception& wrong) {
-      // OpenVDB leaves the buffer neither here nor there, so that it may not be destroyed.
+      // OpenVDB leaves the buffer in a state in which it cannot be destroyed.
       static_cast<void>(copy.release());
       throw InputError(std::string("values of a grid cannot be read: ") + wrong.what());
     }

@@ -1,5 +1,4 @@
-// What viewers will not show. The facts about Blender are those of version 3.4.1 (DESIGN section
-// 14).
+// Faults that viewers stumble over. Facts about Blender hold for version 3.4.1 (DESIGN section 14).
 
 #include "libvox/inspect/lint.h"
 
@@ -44,7 +43,7 @@ class LintFindings {
 
 // Values
 
-/// Extremes of the values of a grid, and those that are no numbers.
+/// Extremes of the values of a grid, and its values that are no numbers.
 struct Values {
   double least = std::numeric_limits<double>::infinity();  ///< of active voxels
   double most = -std::numeric_limits<double>::infinity();
@@ -69,7 +68,7 @@ struct Values {
   }
 };
 
-/// A scalar itself; of a vector the component that is no number, or else the largest.
+/// A scalar itself. Of a vector: a component that is no number, else the largest component.
 template <class Value>
 double scalarOf(const Value& value) {
   if constexpr (openvdb::VecTraits<Value>::IsVec) {
@@ -133,7 +132,7 @@ bool isFog(const GridBase& grid) {
          (grid.getGridClass() == openvdb::GRID_UNKNOWN && grid.getName() == "density");
 }
 
-/// Blender leaves out what is not larger.
+/// Blender leaves out densities that are not larger.
 constexpr double kVisible = 0.001F;
 
 template <class Grid>
@@ -161,7 +160,7 @@ void lintScalars(const Grid& grid, const Values& values, LintFindings& findings)
     findings.add("invisible", "has no value above 0.001: Blender will show nothing");
 }
 
-/// What takes a look at each value.
+/// Visits every value.
 void lintValues(const GridBase& grid, LintFindings& findings) {
   using Valued = ComparedTypes::Remove<openvdb::BoolGrid, openvdb::MaskGrid>;
   grid.apply<Valued>([&](const auto& typed) {
@@ -188,7 +187,7 @@ void lintVoxels(const GridBase& grid, LintFindings& findings) {
     findings.add("tiles-only",
                  "has tiles but no leaf: Blender's Cycles will show nothing; voxelize the tiles");
   const auto said = grid.getMetadata<openvdb::Int64Metadata>("vox_active_voxels");
-  // Other grids have other voxels: those inside, or a band.
+  // Other grids hold other voxels: the inside, or a band.
   if (said && grid.isType<openvdb::MaskGrid>() &&
       static_cast<std::uint64_t>(said->value()) != active)
     findings.add("count", "has " + numberText(active) + " active voxels, but was made with " +
@@ -212,7 +211,7 @@ void lintName(const GridBase& grid, LintFindings& findings) {
     findings.add("name",
                  "has characters in its name that attributes of Houdini cannot have; use letters, "
                  "digits and _");
-  const bool forHoudini = grid["vox_version"] != nullptr;  // vox uses the name for it only
+  const bool forHoudini = grid["vox_version"] != nullptr;  // vox writes that name only for Houdini
   if (name == "N" && !forHoudini && grid.valueType().starts_with("vec3"))
     findings.add("name", "is a vector grid by the name of Blender's own normals; name it normal");
 }

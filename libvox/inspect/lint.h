@@ -8,22 +8,22 @@
 
 namespace vox {
 
-/// Something a viewer of a .vdb file will trip over.
+/// Something that makes a viewer show a .vdb file wrongly, or not at all.
 struct LintFinding {
-  std::string code;     ///< "no-density": to choose by
+  std::string code;     ///< short name, "no-density"
   std::string grid;     ///< name; "" for the whole file
-  std::string message;  ///< what is wrong, and what comes of it
+  std::string message;  ///< the fault and its consequence
 };
 
-/// What lint can say, and in short what of: for help.
+/// A fault that lint looks for, with a short description for help.
 struct LintRule {
   const char* code;
   const char* what;
 };
 const std::vector<LintRule>& lintRules();
 
-/// Looks for what Blender 3.4 or Houdini will not show, or not as meant, in a .vdb file of any
-/// program: see lintRules. Leaf by leaf, in parallel.
+/// Looks for faults (lintRules) in a .vdb file of any program: contents that Blender 3.4 or Houdini
+/// will not show, or show wrongly. Leaf by leaf, in parallel.
 /// @throws InputError  the file cannot be read
 std::vector<LintFinding> lintVdb(const std::filesystem::path& file);
 

@@ -1,5 +1,5 @@
-// Nearest neighbours in a tree of boxes, and the Hausdorff distance by branch and bound: what
-// cannot be farther than the farthest so far is not looked at.
+// Nearest neighbours in a tree of boxes, and the Hausdorff distance by branch and bound: voxels
+// that cannot be farther than the farthest one so far are skipped.
 
 #include "libvox/inspect/nearest_active.h"
 
@@ -27,7 +27,7 @@ constexpr double squared(double x) {
   return x * x;
 }
 
-/// From a voxel to the nearest of a box.
+/// From a voxel to the nearest voxel of a box.
 double squaredDistance(const Coord& from, const CoordBBox& box) {
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -51,7 +51,7 @@ bool lessMorton(const Coord& a, const Coord& b) {
   return a[axis] < b[axis];
 }
 
-/// All boxes of one level, by fours.
+/// Joins the boxes of a level in groups of four.
 template <class Boxes, class BoxOf>
 std::vector<CoordBBox> byFours(const Boxes& below, BoxOf boxOf) {
   std::vector<CoordBBox> boxes((below.size() + kFanout - 1) / kFanout);
@@ -92,11 +92,11 @@ class Surroundings {
     }
   }
 
-  /// Takes those voxels of the leaf in the middle away that have one of these within a distance of
-  /// up to kMostReach.
+  /// Removes the voxels of the middle leaf that have one of these voxels within a distance of at
+  /// most kMostReach.
   void takeNear(double squaredReach, openvdb::util::NodeMask<3>& voxels) const {
     const int reach = static_cast<int>(std::sqrt(squaredReach));
-    std::vector<Rows> wide = {rows_};  // [n]: and their neighbours up to n along z
+    std::vector<Rows> wide = {rows_};  // [n]: with their neighbours up to n along z
     for (int n = 1; n <= reach; ++n) {
       wide.push_back(wide.back());
       for (auto& slab : wide.back())
@@ -129,7 +129,7 @@ class Surroundings {
   Rows rows_{};
 };
 
-/// Takes away what is not as far as the farthest so far: cheaply, a leaf at a time.
+/// Removes voxels that are not as far as the farthest one so far: cheaply, a leaf at a time.
 LeafSurplus withoutNear(LeafSurplus leaf, const NearestActive& others, double mostSquared) {
   constexpr double kMost = squared(Surroundings::kMostReach);
   if (mostSquared >= 1)
@@ -223,7 +223,7 @@ const openvdb::util::NodeMask<3>* NearestActive::leafAt(const Coord& origin) con
   return found != blocks_.end() && found->box.min() == origin ? found->leafVoxels : nullptr;
 }
 
-/// Looks into a box of a level, the nearest of what is in it first.
+/// Searches a box of a level, the nearest box in it first.
 void NearestActive::look(Search& search, std::size_t level, std::size_t node) const {
   const std::size_t below = level == 0 ? blocks_.size() : levels_[level - 1].size();
   const std::size_t begin = node * kFanout;
@@ -258,7 +258,7 @@ double largestDistance(std::span<const LeafSurplus> leaves, std::span<const Coor
   constexpr std::size_t kGrain = 16;
   parallelForEach(leaves.size(), kGrain,
                   [&](std::size_t i) { raiseBy(leaves[i], others, mostSquared); });
-  // One after the other: where the search stops depends on what was found before.
+  // One after the other: each search stops at the largest distance that the earlier ones found.
   for (const CoordBBox& box : boxes) raiseBy(box, others, mostSquared);
   return std::sqrt(mostSquared.load());
 }

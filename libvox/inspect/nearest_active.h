@@ -8,10 +8,10 @@
 
 namespace vox {
 
-/// Active voxels of a leaf; or all of a box, a tile.
+/// Active voxels of a leaf, or all voxels of a box: a tile.
 struct ActiveBlock {
   openvdb::CoordBBox box;                        ///< inclusive
-  const openvdb::util::NodeMask<3>* leafVoxels;  ///< of the leaf whose box this is; null: all
+  const openvdb::util::NodeMask<3>* leafVoxels;  ///< of the leaf of this box; null: all are active
 };
 
 /// Finds the active voxel nearest to a place. Holds 32 bytes per block and 8 for the tree of boxes
@@ -26,7 +26,7 @@ class NearestActive {
   const openvdb::util::NodeMask<3>* leafAt(const openvdb::Coord& origin) const;
 
   /// Squared Euclidean distance to the nearest active voxel, in voxels; infinite if there is none.
-  /// Any distance will do that is at most `enough` squared: looks no further then. Thread-safe.
+  /// Stops looking at the first distance that is not larger than `enoughSquared`. Thread-safe.
   double squaredDistance(const openvdb::Coord& from, double enoughSquared = 0) const;
 
  private:
@@ -37,15 +37,15 @@ class NearestActive {
   std::vector<std::vector<openvdb::CoordBBox>> levels_;  ///< boxes of four of the level below
 };
 
-/// Active voxels of one tree that another has not, in one leaf.
+/// Active voxels of a leaf that are not active in another tree.
 struct LeafSurplus {
   openvdb::Coord origin;
   openvdb::util::NodeMask<3> voxels;
 };
 
 /// Largest distance from any of these voxels to the nearest active voxel of another tree, in
-/// voxels, Euclidean. Exact for leaves; within 1 % for boxes. Infinite if there is something here
-/// but nothing there. Parallel; the same for any number of threads.
+/// voxels, Euclidean. Exact for leaves; within 1 % for boxes. Infinite if the other tree has no
+/// active voxel. Parallel; the same for any number of threads.
 double largestDistance(std::span<const LeafSurplus> leaves,
                        std::span<const openvdb::CoordBBox> boxes, const NearestActive& others);
 

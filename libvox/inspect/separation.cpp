@@ -29,8 +29,9 @@ using openvdb::MaskTree;
 using Accessor = openvdb::tree::ValueAccessor<MaskTree>;
 using ConstAccessor = openvdb::tree::ValueAccessor<const MaskTree>;
 
-/// Whether a triangle, given relative to the centre, meets a cube: no axis tells them apart. Of the
-/// axes of the cube, the normal, and the products of both with the sides.
+/// True if a triangle, given relative to the centre of a cube, meets the cube: no axis separates
+/// them. Candidates are the axes of the cube, the normal, and the products of the axes with the
+/// sides.
 bool meetsCube(const std::array<Vec3d, 3>& t, double halfSide) {
   const auto apart = [&](const Vec3d& axis) {
     const auto [low, high] = std::minmax({axis.dot(t[0]), axis.dot(t[1]), axis.dot(t[2])});
@@ -102,7 +103,7 @@ MaskTree rimOf(std::span<const LatticeTriangle> triangles) {
   return rim;
 }
 
-/// Space around a surface as a flood sees it.
+/// The space around a surface, with the queries of a flood.
 class Space {
  public:
   Space(const MaskTree& voxels, const ReferenceSurface& surface,
@@ -121,7 +122,7 @@ class Space {
   bool isInactive(const Coord& voxel) const { return !voxels_.isValueOn(voxel); }
   bool isInLayer(const Coord& voxel) const { return inLayer_.isValueOn(voxel); }
 
-  /// Whether a step to a neighbour crosses the surface, away from its boundary.
+  /// True if a step to a neighbour crosses the surface away from its boundary.
   bool crosses(const Coord& from, const Coord& to) const {
     const Coord lower = std::min(from, to);
     const std::size_t axis = from.x() != to.x() ? 0 : from.y() != to.y() ? 1 : 2;
@@ -147,7 +148,7 @@ void forEachNeighbour(const Coord& voxel, Visit&& visit) {
     }
 }
 
-/// Inactive voxels of the layer that hang together, with the side of each: crossings modulo 2.
+/// Connected inactive voxels of the layer, with the side of each: crossings modulo 2.
 class Flood {
  public:
   explicit Flood(const Space& space) : space_(space), visited_(visitedTree_), far_(farTree_) {}
@@ -195,7 +196,7 @@ class Flood {
   Accessor far_;
 };
 
-/// Whether inactive voxels lead out of the layer near by without crossing the surface.
+/// True if a short path of inactive voxels leads out of the layer without crossing the surface.
 bool leadsOut(const Space& space, const Coord& start) {
   constexpr int kReach = 6;
   std::set<Coord> seen = {start};
@@ -214,7 +215,7 @@ bool leadsOut(const Space& space, const Coord& start) {
   return false;
 }
 
-/// The steps that are holes, not entrances of pockets; all of them if that cannot be told.
+/// The steps that are holes, not entrances of pockets. All steps if no step is known to be a hole.
 std::vector<Coord> throughHoles(const Space& space, std::vector<Coord> steps) {
   std::sort(steps.begin(), steps.end());
   steps.erase(std::unique(steps.begin(), steps.end()), steps.end());

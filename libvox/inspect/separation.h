@@ -12,13 +12,13 @@
 
 namespace vox {
 
-/// A surface to hold voxels against, in index space. Triangles are neighbours where two of their
-/// corners lie at the same places; what has no neighbour is a boundary.
+/// A surface that voxels are compared with, in index space. Two triangles are neighbours if two of
+/// their corners lie at the same places. A side without neighbour is a boundary.
 struct ReferenceSurface {
   std::vector<Vec3d> points;
   std::vector<std::array<Index, 3>> triangles;
-  /// How far the surface that was voxelized may be from this one, in voxels (L-inf): 0 if these are
-  /// its own polygons.
+  /// Largest distance of the surface that was voxelized from this one, in voxels (L-inf): 0 if it
+  /// consists of these very triangles.
   double tolerance = 0;
 };
 
@@ -27,22 +27,22 @@ ReferenceSurface referenceSurface(PolygonMesh mesh, double tolerance);
 
 struct SeparationReport {
   std::uint64_t tunnels = 0;        ///< places where the surface is open
-  std::optional<VoxelIndex> first;  ///< lowest (x, then y, then z) at such a place
+  std::optional<VoxelIndex> first;  ///< voxel at such a place with the lowest x, then y, then z
 };
 
 /// Looks for tunnels of a surface, closed or open, orientable or not.
 ///
 /// k6: a tunnel is a path of inactive voxels, face to face, that starts farther than 1/2 (L-inf)
 /// from the surface, crosses it an odd number of times and ends as far from it again. (A step that
-/// crosses into a pocket is none.) Such paths are sought in the layer of voxels around the surface,
-/// by a flood that counts crossings modulo 2. Steps beside the boundary of an open surface do not
-/// count, where the voxels may end a little earlier. Crossings are decided exactly, on a lattice of
+/// crosses into a pocket is no tunnel.) A flood that counts crossings modulo 2 looks for such paths
+/// in the layer of voxels around the surface. Steps beside the boundary of an open surface do not
+/// count: the voxels may end a little earlier there. Crossings are decided exactly, on a lattice of
 /// 2^-16 voxels.
 ///
 /// k26: a tunnel is an inactive voxel whose closed cube meets the surface.
 ///
-/// One-sided surfaces that preparation has doubled are two surfaces at one place, which count as
-/// one. Costs some microseconds and 50 bytes per voxel of the layer; serial.
+/// A one-sided surface that preparation has doubled counts as one surface. Costs some microseconds
+/// and 50 bytes per voxel of the layer; serial.
 /// @throws LimitError  as scanTriangles
 SeparationReport findTunnels(const openvdb::MaskTree& voxels, const ReferenceSurface& surface,
                              Separation separation);

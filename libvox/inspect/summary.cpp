@@ -16,7 +16,8 @@ namespace {
 
 using Edge = std::span<const EdgeCorner>;
 
-/// Components and orientability. Edges of three faces and more join, but say nothing of winding.
+/// Components and orientability. An edge of three faces or more connects them, but does not relate
+/// their windings.
 void findComponents(const PolygonMesh& mesh, const Adjacency& adjacency,
                     const std::vector<EdgeCorner>& edges, MeshSummary& summary) {
   WindingForest faces(mesh.faceCount());
@@ -65,7 +66,7 @@ void measureBoundary(const PolygonMesh& mesh, const std::vector<EdgeCorner>& edg
   summary.closed = summary.boundaryLoops.empty();
 }
 
-/// From the rest of the summary.
+/// The genus, from the rest of the summary.
 void findGenus(MeshSummary& summary) {
   const bool manifold =
       std::all_of(summary.defects.begin(), summary.defects.end(), [](const Defect& defect) {

@@ -14,8 +14,8 @@
 
 namespace vox {
 
-/// What there is to know about a mesh, whatever the winding of its faces. Edges are undirected and
-/// counted once whatever their number of faces; points no face uses do not count towards the Euler
+/// Properties of a mesh; they do not depend on the winding of its faces. Edges are undirected and
+/// count once, with any number of faces. Points that no face uses do not count for the Euler
 /// characteristic.
 struct MeshSummary {
   std::uint64_t points = 0;
@@ -39,7 +39,7 @@ struct MeshSummary {
 /// @throws MeshError  the arrays are not valid (requireValidArrays)
 MeshSummary summarize(const PolygonMesh& mesh);
 
-/// What there is to know about one grid of a .vdb file.
+/// Properties of a grid of a .vdb file.
 struct GridSummary {
   std::string name;
   std::string type;       ///< OpenVDB's name: "Tree_float_5_4_3"

@@ -1,4 +1,4 @@
-// Which voxels are active, whatever the type.
+// The active voxels of grids of any type.
 
 #include "libvox/inspect/topology.h"
 

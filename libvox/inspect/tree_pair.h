@@ -7,7 +7,8 @@
 
 namespace vox {
 
-/// The cube of a node of a tree: the node, or where the tree has none, one value throughout.
+/// A cube of a tree that is as large as a node: the node, or one value if the tree has no node
+/// there.
 template <class Node>
 struct Region {
   using Value = typename Node::ValueType;
@@ -30,11 +31,11 @@ openvdb::util::NodeMask<3> activeVoxels(const Region<Leaf>& leaf) {
   return leaf.node != nullptr ? leaf.node->getValueMask() : openvdb::util::NodeMask<3>(leaf.active);
 }
 
-/// Two trees of one type side by side, whatever the nodes of each.
+/// Two trees of one type side by side; their nodes may differ.
 ///
-/// A visitor is told of cubes that are small in both or either: leaf(origin, a, b), where one of
-/// the two regions is a leaf at least; and constant(box, a, b), where both are one value, and
-/// small or large. Elsewhere both are inactive and have the same value, or their backgrounds.
+/// A visitor sees the cubes where one of the trees has something: leaf(origin, a, b) if at least
+/// one of the two regions is a leaf; constant(box, a, b) if each of them has one value. Everywhere
+/// else both trees are inactive and have the same value, or their backgrounds.
 template <class Tree>
 class TreePair {
  public:
@@ -52,7 +53,7 @@ class TreePair {
       split(key, topRegion(a.root(), key), topRegion(b.root(), key));
   }
 
-  /// Number of parts, cubes of up to 128^3 voxels and tiles; in an order of their own.
+  /// Number of parts: cubes of up to 128^3 voxels, and tiles. Their order has no meaning.
   std::size_t partCount() const { return parts_.size(); }
 
   template <class Visitor>

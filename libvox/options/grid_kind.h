@@ -4,13 +4,14 @@
 
 namespace vox {
 
-/// The grids a conversion can make (DESIGN section 14).
+/// The grids that a conversion can make (DESIGN section 14). "Active" are the voxels of the
+/// surface.
 enum class GridKind {
-  kDensity,  ///< Float fog volume, 1 at active voxels
+  kDensity,  ///< Float fog volume, constant at active voxels
   kMask,     ///< the active voxels
   kNormal,   ///< Vec3s, unit normals of the surface at active voxels
   kColor,    ///< Vec3s, linear colour of active voxels
-  kSurface,  ///< Float level set, narrow band of distances to the surface
+  kSurface,  ///< Float level set: narrow band of distances to the surface
 };
 inline constexpr NameTable<GridKind, 5> kGridNames = {{{GridKind::kDensity, "density"},
                                                        {GridKind::kMask, "mask"},

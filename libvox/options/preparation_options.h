@@ -6,12 +6,12 @@
 
 namespace vox {
 
-/// How meshes are made ready to subdivide. What is not set here is taken from the scene, then from
-/// the default.
+/// How meshes are made ready to subdivide. A value that is not set comes from the object, else from
+/// the scene, else from the default.
 struct PreparationOptions {
   SmoothingOptions smoothing;           ///< default: boundary extended, nothing interpolated
   std::optional<double> weldTolerance;  ///< world units; default 0: equal positions only
-  std::optional<bool> strict;  ///< whether a mesh that needs repair is refused; default false
+  std::optional<bool> strict;  ///< true: a mesh that needs repair is refused; default false
 };
 
 }  // namespace vox

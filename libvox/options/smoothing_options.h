@@ -24,15 +24,11 @@ inline constexpr NameTable<Interpolate, 4> kInterpolateNames = {
      {Interpolate::kBoundary, "boundary"},
      {Interpolate::kBoth, "both"}}};
 
-/// How to smooth an object. Options without a value are not set.
+/// How to smooth an object. A value that is not set comes from the object, else from the default.
 struct SmoothingOptions {
   std::optional<BoundaryRule> boundary;                    ///< default: kExtend
   std::optional<Interpolate> interpolate;                  ///< default: kNothing
   std::optional<std::vector<Index>> interpolatedVertices;  ///< interior, added to `interpolate`
 };
-
-/// The options of `first`, completed by those of `second`. `interpolate` and `interpolatedVertices`
-/// are one choice: if `first` sets either of them, both are taken from `first`.
-SmoothingOptions overriding(const SmoothingOptions& first, const SmoothingOptions& second);
 
 }  // namespace vox

@@ -12,7 +12,7 @@ inline constexpr int kMostLevels = 30;
 
 /// How far a surface is subdivided before it is voxelized. Each vertex is subdivided until one of
 /// the limits that are set is met. If no limit is set, it is subdivided until the vertices are so
-/// close that marking the voxel of each leaves no gap (vertex conversion, DESIGN section 6).
+/// close that marking the voxel of each leaves no gap (vertex conversion, DESIGN section 9).
 struct StopRule {
   std::optional<int> levels = {};       ///< Doo-Sabin steps, 0..kMostLevels
   std::optional<double> diameter = {};  ///< L-inf diameter of the faces, voxels, > 0

@@ -48,7 +48,7 @@ inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxi
 inline constexpr double kDefaultBand = 3;          ///< voxels
 inline constexpr double kDefaultTolerance = 0.05;  ///< voxels
 
-/// Options of volumes. Options without a value are not set.
+/// How to make volumes. A value that is not set comes from the scene, else from the default.
 struct VolumeOptions {
   std::optional<Fill> fill;          ///< default: kSurface
   std::optional<double> gain;        ///< value of `density` at its voxels; see densityValue()
@@ -62,14 +62,23 @@ struct VolumeOptions {
   std::optional<UpAxis> up;                ///< default: as in the target, so that nothing turns
 };
 
-/// The options of `first`; options that it does not set are those of `second`.
-VolumeOptions overriding(const VolumeOptions& first, const VolumeOptions& second);
+/// The same with defaults applied.
+struct VolumeSettings {
+  Fill fill = Fill::kSurface;
+  OpenMesh openMesh = OpenMesh::kSurface;
+  double band = kDefaultBand;
+  double tolerance = kDefaultTolerance;
+  bool half = false;
+  Target target = Target::kBlender;
+  std::optional<double> gain = {};  ///< empty: what suits target and voxel size, densityValue()
+  std::optional<Compression> compression = {};  ///< empty: as writeVdb() chooses
+};
 
-/// Name of a grid in the file; depends on the target.
-std::string gridNameFor(GridKind kind, const VolumeOptions& options);
+/// Name of a grid in a file.
+std::string gridNameFor(GridKind kind, Target target);
 
-/// Checks the numbers among the options.
+/// Checks the numbers among the settings.
 /// @throws UsageError  one is out of range
-void requireValid(const VolumeOptions& options);
+void requireValid(const VolumeSettings& settings);
 
 }  // namespace vox

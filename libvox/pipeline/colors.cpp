@@ -1,4 +1,4 @@
-// Colours of voxels: whose they are and what they are painted with.
+// Colours of voxels: from which object, and from its texture or its mesh.
 
 #include "libvox/pipeline/colors.h"
 
@@ -29,8 +29,8 @@ void paintTexture(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
   });
 }
 
-/// Level whose polygons are sampled, or nothing for vertices. Polygons refined to other limits lie
-/// near those of a few levels; what these miss, the neighbours give.
+/// Level whose polygons are sampled; empty if vertices are. Polygons refined to other limits than
+/// levels lie near those of a few levels; a voxel that these miss takes the mean of its neighbours.
 std::optional<int> sampledLevel(const ConversionWay& way) {
   constexpr int kNearEnough = 3;
   if (!way.polygons) return std::nullopt;
@@ -54,16 +54,16 @@ void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
 
 }  // namespace
 
-std::optional<PlacedTexture> textureOf(const SceneObject& object,
-                                       const std::optional<TextureSpec>& asked, Turn turn) {
-  const std::optional<TextureSpec>& spec = asked ? asked : object.texture;
-  if (!spec) return std::nullopt;
-  const Eigen::Affine3d fromWorld = spec->inWorld ? Eigen::Affine3d::Identity() : object.fromWorld;
+std::optional<PlacedTexture> placedTexture(const std::optional<TextureSpec>& texture,
+                                           const SceneObject& object, Turn turn) {
+  if (!texture) return std::nullopt;
+  const Eigen::Affine3d fromWorld =
+      texture->inWorld ? Eigen::Affine3d::Identity() : object.fromWorld;
   Box extent;
   for (const Index v : object.mesh.faceVertices) extent.add(fromWorld * object.mesh.points[v]);
   Eigen::Matrix3d back;
   for (int axis = 0; axis < 3; ++axis) back.col(axis) = turned(Vec3d::Unit(axis), inverse(turn));
-  return PlacedTexture{SolidTexture(*spec, extent), fromWorld * Eigen::Affine3d(back)};
+  return PlacedTexture{SolidTexture(*texture, extent), fromWorld * Eigen::Affine3d(back)};
 }
 
 openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask,

@@ -14,10 +14,10 @@ namespace vox {
 class MemoryBudget;
 class Progress;
 
-/// The texture that colours an object: `asked` if that is set, else the object's own, else none.
+/// The texture of an object, placed in its space; empty if there is none.
 /// @param turn  of the grid
-std::optional<PlacedTexture> textureOf(const SceneObject& object,
-                                       const std::optional<TextureSpec>& asked, Turn turn);
+std::optional<PlacedTexture> placedTexture(const std::optional<TextureSpec>& texture,
+                                           const SceneObject& object, Turn turn);
 
 /// The grid `color`, active at the voxels of the mask.
 ///

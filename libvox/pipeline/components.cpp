@@ -1,4 +1,4 @@
-// Sets of faces that hang together.
+// Sets of connected faces.
 
 #include "libvox/pipeline/components.h"
 
@@ -24,7 +24,8 @@ std::vector<MeshComponent> componentsOf(const SubdivisionLevel& base) {
     if (twin[c] != kNone) forest.unite(cornerFace[c], cornerFace[twin[c]], false);
 
   std::vector<MeshComponent> components;
-  std::vector<Index> number(base.mesh.faceCount(), kNone);  // of the component, at its root
+  std::vector<Index> number(base.mesh.faceCount(),
+                            kNone);  // index of the component, at the root of its faces
   for (Index f = 0; f < base.mesh.faceCount(); ++f) {
     Index& n = number[forest.find(f).root];
     if (n == kNone) {

@@ -10,13 +10,9 @@
 #include "libvox/core/version.h"
 #include "libvox/grid/active_voxels.h"
 #include "libvox/grid/openvdb.h"
-#include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
-#include "libvox/pipeline/asked.h"
-#include "libvox/pipeline/choose.h"
-#include "libvox/pipeline/estimate.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/metadata.h"
 #include "libvox/pipeline/polygons.h"
@@ -32,149 +28,157 @@
 namespace vox {
 namespace {
 
-/// What became of a surface, for the report.
-void noteSurface(const SurfaceReport& surface, ObjectReport& part) {
-  part.submeshes = surface.submeshes;
-  part.verticesOfLevel = surface.vertices;
-  for (std::size_t level = 0; level < surface.vertices.size(); ++level) {
-    if (surface.vertices[level] == 0) continue;
-    part.levels = static_cast<int>(level);
-    part.vertices += surface.vertices[level];
-  }
-}
-
-/// Polygon conversion of an object, with a warning if its polygons are not what they should be.
-void convertPolygons(const PreparedSurface& surface, const SurfaceOptions& options,
-                     const MemoryBudget& budget, Progress& progress, ActiveVoxels& grid,
-                     ObjectReport& part, std::vector<std::string>& warnings) {
-  markPolygons(surface.base, surface.way.until, options, surface.way.separation, budget, progress,
-               grid, part.polygons);
-  part.byPolygons = true;
-  part.until = surface.way.until;
-  part.levels = part.polygons.levels;
-  part.submeshes = part.polygons.submeshes;
-  const std::uint64_t fanned = part.polygons.fanned;
-  if (fanned > 0)
-    warnings.push_back(part.name + ": " + std::to_string(fanned) +
-                       (fanned == 1 ? " polygon is" : " polygons are") +
-                       " folded or without area and became " + (fanned == 1 ? "a fan" : "fans") +
-                       " of triangles");
-}
-
-/// How each object becomes voxels.
-void chooseWays(const Scene& scene, const ConvertOptions& options,
-                std::span<PreparedSurface> surfaces) {
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const SceneObject& object = scene.objects[i];
-    surfaces[i].way = chooseWay(stopRuleOf(object, scene, options),
-                                voxelizeOf(object, scene, options), options.separation);
-  }
-}
-
-/// The voxels of all objects.
-/// @param apart  whether each surface is to have its own besides
-openvdb::MaskGrid::Ptr markObjects(const Scene& scene, std::span<PreparedSurface> surfaces,
-                                   const ConvertOptions& options, const GridTransform& transform,
-                                   bool apart, std::span<const double> areas, MemoryBudget& budget,
-                                   Progress& progress, ConvertReport& report) {
-  const StageTimer timer(report.surfaceSeconds);
-  ActiveVoxels grid(budget.left());
-  auto all = std::make_shared<openvdb::MaskTree>();
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    PreparedSurface& surface = surfaces[i];
-    ObjectReport& part = report.objects[i];
-    progress.begin("surface", workOfSurface(areas[i], scene.objects[i].mesh.cornerCount()));
-    if (surface.way.polygons) {
-      convertPolygons(surface, options.surface, budget, progress, grid, part, report.warnings);
-    } else {
-      SurfaceReport marked;
-      markSurface(surface.base, options.surface, budget, progress, grid, marked);
-      noteSurface(marked, part);
-    }
-    if (apart) {
-      budget.take(2 * grid.memoryBytes(), "the grid", kScatteredAdvice);
-      surface.voxels = grid.takeTree();
-      all->topologyUnion(*surface.voxels);
-      grid.setMemoryLimit(budget.left());
-    }
-    part.activeVoxels =
-        (apart ? all->activeVoxelCount() : grid.countVoxels()) - report.activeVoxels;
-    report.activeVoxels += part.activeVoxels;
-  }
-  budget.take(grid.memoryBytes(), "the grid", kScatteredAdvice);
-  auto mask = openvdb::MaskGrid::create(apart ? all : grid.takeTree());
-  mask->setTransform(openvdb::math::Transform::createLinearTransform(transform.voxelSize));
-  return mask;
-}
-
-/// Whether it matters which voxels belong to which object.
-bool needsVoxelsApart(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds) {
-  return surfaces.size() > 1 &&
+/// True if the grids need each object's voxels separately.
+bool needsObjectsApart(const PreparedScene& prepared, std::span<const GridKind> kinds) {
+  return prepared.surfaces.size() > 1 &&
          std::find(kinds.begin(), kinds.end(), GridKind::kColor) != kinds.end();
+}
+
+/// Switches on the voxels of a prepared scene, object by object.
+class SceneMarker {
+ public:
+  /// @param apart  each surface gets the voxels of its own, besides
+  SceneMarker(const Request& request, bool apart, PreparedScene& prepared, Progress& progress,
+              ConvertReport& report)
+      : request_(request),
+        apart_(apart),
+        prepared_(prepared),
+        progress_(progress),
+        report_(report),
+        grid_(prepared.budget.left()) {}
+
+  /// @param corners  of the input
+  void mark(std::size_t object, std::uint64_t corners) {
+    PreparedSurface& surface = prepared_.surfaces[object];
+    ObjectReport& part = report_.objects[object];
+    progress_.begin("surface", workOfSurface(prepared_.areas[object], corners));
+    if (surface.way.polygons)
+      markByPolygons(surface, part);
+    else
+      markByVertices(surface, part);
+    if (apart_) takeApart(surface);
+    const std::uint64_t voxels = apart_ ? all_->activeVoxelCount() : grid_.countVoxels();
+    part.activeVoxels = voxels - report_.activeVoxels;
+    report_.activeVoxels = voxels;
+  }
+
+  /// The voxels of all objects. After the last object.
+  openvdb::MaskGrid::Ptr take() {
+    prepared_.budget.take(grid_.memoryBytes(), "the grid", kScatteredAdvice);
+    auto mask = openvdb::MaskGrid::create(apart_ ? all_ : grid_.takeTree());
+    mask->setTransform(
+        openvdb::math::Transform::createLinearTransform(prepared_.transform.voxelSize));
+    return mask;
+  }
+
+ private:
+  void markByVertices(const PreparedSurface& surface, ObjectReport& part) {
+    SurfaceReport marked;
+    markSurface(surface.base, request_.surface, prepared_.budget, progress_, grid_, marked);
+    part.submeshes = marked.submeshes;
+    part.verticesOfLevel = marked.vertices;
+    for (std::size_t level = 0; level < marked.vertices.size(); ++level) {
+      if (marked.vertices[level] == 0) continue;
+      part.levels = static_cast<int>(level);
+      part.vertices += marked.vertices[level];
+    }
+  }
+
+  void markByPolygons(const PreparedSurface& surface, ObjectReport& part) {
+    markPolygons(surface.base, surface.way.until, request_.surface, surface.way.separation,
+                 prepared_.budget, progress_, grid_, part.polygons);
+    part.byPolygons = true;
+    part.until = surface.way.until;
+    part.levels = part.polygons.levels;
+    part.submeshes = part.polygons.submeshes;
+    const std::uint64_t fanned = part.polygons.fanned;
+    if (fanned > 0)
+      report_.warnings.push_back(part.name + ": " + std::to_string(fanned) +
+                                 (fanned == 1 ? " polygon is" : " polygons are") +
+                                 " folded or without area and became " +
+                                 (fanned == 1 ? "a fan" : "fans") + " of triangles");
+  }
+
+  void takeApart(PreparedSurface& surface) {
+    prepared_.budget.take(2 * grid_.memoryBytes(), "the grid", kScatteredAdvice);
+    surface.voxels = grid_.takeTree();
+    all_->topologyUnion(*surface.voxels);
+    grid_.setMemoryLimit(prepared_.budget.left());
+  }
+
+  const Request& request_;
+  bool apart_;
+  PreparedScene& prepared_;
+  Progress& progress_;
+  ConvertReport& report_;
+  ActiveVoxels grid_;
+  openvdb::MaskTree::Ptr all_ = std::make_shared<openvdb::MaskTree>();  // if objects are apart
+};
+
+/// The voxels of all objects; none if no grid needs them.
+openvdb::MaskGrid::Ptr markObjects(const Scene& scene, const Request& request,
+                                   PreparedScene& prepared, Progress& progress,
+                                   ConvertReport& report) {
+  const StageTimer timer(report.surfaceSeconds);
+  SceneMarker marker(request, needsObjectsApart(prepared, request.grids), prepared, progress,
+                     report);
+  for (std::size_t i = 0; needsVoxels(request.grids) && i < scene.objects.size(); ++i)
+    marker.mark(i, scene.objects[i].mesh.cornerCount());
+  return marker.take();
 }
 
 /// A grid with its name and metadata.
 openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
-                                const VolumeOptions& volume, const openvdb::MetaMap& metadata) {
-  grid->setName(gridNameFor(kind, volume));
-  grid->setSaveFloatAsHalf(volume.half.value_or(false));
+                                const VolumeSettings& volume, const openvdb::MetaMap& metadata) {
+  grid->setName(gridNameFor(kind, volume.target));
+  grid->setSaveFloatAsHalf(volume.half);
   for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
     grid->insertMeta(entry->first, *entry->second);
   return grid;
 }
 
-Conversion convertScene(const Scene& scene, const ConvertOptions& options, Progress& progress) {
+Conversion convertScene(const Scene& scene, const Request& request, Progress& progress) {
   openvdb::initialize();
   Conversion result;
   ConvertReport& report = result.report;
-  auto [budget, kinds, volume, transform, areas, surfaces, estimate] =
-      prepareScene(scene, options, progress, report);
-  if (!estimate.refusal.empty()) throw LimitError(estimate.refusal);
-  chooseWays(scene, options, surfaces);
-  const auto toMark = needsVoxels(kinds) ? std::span(surfaces) : std::span<PreparedSurface>();
-  const openvdb::MaskGrid::Ptr mask =
-      markObjects(scene, toMark, options, transform, needsVoxelsApart(surfaces, kinds), areas,
-                  budget, progress, report);
+  PreparedScene prepared = prepareScene(scene, request, progress, report);
+  if (!prepared.estimate.refusal.empty()) throw LimitError(prepared.estimate.refusal);
+  const openvdb::MaskGrid::Ptr mask = markObjects(scene, request, prepared, progress, report);
 
+  const VolumeSettings& volume = request.volume;
   result.compression = volume.compression;
   if (volume.target == Target::kBlender34)
-    mask->transform().postTranslate(openvdb::Vec3d(-transform.voxelSize / 2));
-  progress.begin("grids", workOfGrids(areas, kinds));
+    mask->transform().postTranslate(openvdb::Vec3d(-prepared.transform.voxelSize / 2));
+  progress.begin("grids", workOfGrids(prepared.areas, request.grids));
   const StageTimer timer(report.gridsSeconds);
-  const openvdb::MetaMap metadata = describe(scene, options, transform, report);
-  for (const GridKind kind : kinds)
+  const openvdb::MetaMap metadata = describe(scene, request, report);
+  for (const GridKind kind : request.grids)
     result.grids.push_back(
-        finished(makeGrid(kind, mask, surfaces, volume, budget, progress), kind, volume, metadata));
-  if (!needsVoxels(kinds)) report.activeVoxels = result.grids[0]->activeVoxelCount();
+        finished(makeGrid(kind, mask, prepared.surfaces, volume, prepared.budget, progress), kind,
+                 volume, metadata));
+  if (!needsVoxels(request.grids)) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
 }
 
-Estimate estimateScene(const Scene& scene, const ConvertOptions& options, Progress& progress,
+Estimate estimateScene(const Scene& scene, const Request& request, Progress& progress,
                        std::vector<std::string>& warnings) {
   ConvertReport report;
-  Preparation prepared = prepareScene(scene, options, progress, report);
+  const PreparedScene prepared = prepareScene(scene, request, progress, report);
   warnings = report.warnings;
-  Estimate& estimate = prepared.estimate;
+  Estimate estimate = prepared.estimate;
   if (!estimate.refusal.empty()) return estimate;
-  chooseWays(scene, options, prepared.surfaces);
-  estimate = estimateGrids(prepared.surfaces, prepared.kinds, prepared.volume);
-  estimate.voxelSize = report.voxelSize;
   for (const PreparedSurface& surface : prepared.surfaces)
-    estimate.levels = std::max(estimate.levels, levelsOf(surface, options.surface, progress));
+    estimate.levels = std::max(estimate.levels, levelsOf(surface, request.surface, progress));
   return estimate;
 }
 
-/// Checks what is asked for, and runs work(progress) on the threads asked for.
+/// Checks the meshes, and runs work(progress) on the threads asked for.
 template <class Work>
-auto onOptions(const Scene& scene, const ConvertOptions& options, Work&& work) {
-  requireStopRules(scene, options);
-  const VolumeOptions volume = overriding(options.volume, scene.volume);
-  requireValid(volume);
-  if (volume.compression) requireCompression(*volume.compression);
+auto runRequest(const Scene& scene, const RunOptions& run, Work&& work) {
   requireValidScene(scene);
   Progress unwatched;
-  Progress& progress = options.run.progress != nullptr ? *options.run.progress : unwatched;
-  return onThreads(options.run.threads, [&] { return work(progress); });
+  Progress& progress = run.progress != nullptr ? *run.progress : unwatched;
+  return onThreads(run.threads, [&] { return work(progress); });
 }
 
 }  // namespace
@@ -186,15 +190,35 @@ Box boxOf(const Scene& scene) {
 }
 
 Conversion convert(const Scene& scene, const ConvertOptions& options) {
-  return onOptions(scene, options,
-                   [&](Progress& progress) { return convertScene(scene, options, progress); });
+  return convert(scene, resolve(scene, options));
+}
+
+Conversion convert(const Scene& scene, const Request& request) {
+  return runRequest(scene, request.run,
+                    [&](Progress& progress) { return convertScene(scene, request, progress); });
 }
 
 Estimate estimate(const Scene& scene, const ConvertOptions& options,
                   std::vector<std::string>& warnings) {
-  return onOptions(scene, options, [&](Progress& progress) {
-    return estimateScene(scene, options, progress, warnings);
+  return estimate(scene, resolve(scene, options), warnings);
+}
+
+Estimate estimate(const Scene& scene, const Request& request, std::vector<std::string>& warnings) {
+  return runRequest(scene, request.run, [&](Progress& progress) {
+    return estimateScene(scene, request, progress, warnings);
   });
+}
+
+std::vector<std::string> namesOf(const Conversion& conversion) {
+  std::vector<std::string> names;
+  for (const auto& grid : conversion.grids) names.push_back(grid->getName());
+  return names;
+}
+
+std::vector<std::uint64_t> memoryOf(const Conversion& conversion) {
+  std::vector<std::uint64_t> bytes;
+  for (const auto& grid : conversion.grids) bytes.push_back(grid->memUsage());
+  return bytes;
 }
 
 void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress) {

@@ -25,7 +25,7 @@ namespace {
 struct Part {
   std::size_t surface;
   const MeshComponent* component;
-  Box box;  // of its control points, so of it, too; index space, widened by the band
+  Box box;  // of its control points, which hold the surface; index space, widened by the band
 
   double volume() const { return (box.high - box.low).prod(); }
 };
@@ -47,8 +47,8 @@ Box boxOf(const PolygonMesh& mesh, const MeshComponent& component, double margin
   return box;
 }
 
-/// Closed parts in the order in which they are united and taken out, even batches and odd ones.
-/// What encloses another has a larger box and comes before it.
+/// Closed parts in the order in which they are united (even batches) and taken out (odd batches). A
+/// part that encloses another has a larger box and comes first.
 std::map<int, Batch> batchesOf(std::vector<Part> parts) {
   constexpr std::size_t kMostCompared = 20000;
   std::stable_sort(parts.begin(), parts.end(),
@@ -70,20 +70,20 @@ std::map<int, Batch> batchesOf(std::vector<Part> parts) {
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(std::span<const PreparedSurface> surfaces, const VolumeOptions& options,
+  SurfaceMaker(std::span<const PreparedSurface> surfaces, const VolumeSettings& settings,
                const openvdb::math::Transform& transform, const MemoryBudget& budget,
                const Progress& progress)
       : surfaces_(surfaces),
         transform_(transform),
         budget_(budget),
         progress_(progress),
-        band_(options.band.value_or(kDefaultBand)),
-        tolerance_(options.tolerance.value_or(kDefaultTolerance)) {
+        band_(settings.band),
+        tolerance_(settings.tolerance) {
     for (const PreparedSurface& surface : surfaces)
       components_.push_back(componentsOf(surface.base));
   }
 
-  /// Closed parts, or those without inside.
+  /// The closed parts, or the parts without inside.
   std::vector<Part> parts(bool closed) const {
     std::vector<Part> parts;
     for (std::size_t s = 0; s < surfaces_.size(); ++s)
@@ -137,10 +137,10 @@ class SurfaceMaker {
 }  // namespace
 
 openvdb::FloatGrid::Ptr surfaceGrid(std::span<const PreparedSurface> surfaces,
-                                    const VolumeOptions& options,
+                                    const VolumeSettings& settings,
                                     const openvdb::math::Transform& transform, MemoryBudget& budget,
                                     const Progress& progress) {
-  const SurfaceMaker maker(surfaces, options, transform, budget, progress);
+  const SurfaceMaker maker(surfaces, settings, transform, budget, progress);
   openvdb::FloatGrid::Ptr all;
   for (const auto& [number, batch] : batchesOf(maker.parts(true))) {
     const auto grid = maker.make(batch, DistanceTo::kSolid);
@@ -152,7 +152,7 @@ openvdb::FloatGrid::Ptr surfaceGrid(std::span<const PreparedSurface> surfaces,
       openvdb::tools::csgDifference(*all, *grid);
   }
   const Batch open = maker.parts(false);
-  const bool isUnsigned = options.openMesh == OpenMesh::kUnsigned;
+  const bool isUnsigned = settings.openMesh == OpenMesh::kUnsigned;
   if (!open.empty()) {
     const auto grid = maker.make(open, isUnsigned ? DistanceTo::kSurface : DistanceTo::kSheet);
     if (!all)

@@ -25,7 +25,7 @@ class Progress;
 /// @throws LimitError
 /// @throws Cancelled
 std::shared_ptr<openvdb::FloatGrid> surfaceGrid(std::span<const PreparedSurface> surfaces,
-                                                const VolumeOptions& options,
+                                                const VolumeSettings& settings,
                                                 const openvdb::math::Transform& transform,
                                                 MemoryBudget& budget, const Progress& progress);
 

@@ -1,5 +1,5 @@
-// What a conversion will make, from the area of its surfaces. Factors are as once measured on the
-// scenes at dim 64 to 1024.
+// The expected result of a conversion, from the area of its surfaces. Constant factors were
+// measured on the scenes at dim 64 to 1024.
 
 #include "libvox/pipeline/estimate.h"
 
@@ -34,11 +34,11 @@ using FloatLeaf = openvdb::FloatTree::LeafNodeType;
 using FloatUpper = openvdb::FloatTree::RootNodeType::ChildNodeType;
 using FloatLower = FloatUpper::ChildNodeType;
 
-/// Surfaces in numbers, in voxels.
+/// Sizes of surfaces, in voxels.
 struct Measure {
   double area = 0;
-  double taxicabArea = 0;  ///< of |nx| + |ny| + |nz|: the cubes of a lattice that it meets
-  double largestArea = 0;  ///< of max(|nx|, |ny|, |nz|): the least cubes that separate its sides
+  double taxicabArea = 0;  ///< integral of |nx| + |ny| + |nz|: number of unit cubes that it meets
+  double largestArea = 0;  ///< integral of max(|nx|, |ny|, |nz|): fewest cubes that separate it
   double volume = 0;       ///< inside
   double activeVoxels = 0;
   double leaves = 0;  ///< nodes of 8^3 voxels
@@ -48,8 +48,8 @@ struct Measure {
   bool smooth = false;  ///< normals differ from voxel to voxel
 };
 
-/// The cubes of 2^log2 voxels a side that polygons meet, unless these are too large to look, or too
-/// many and long.
+/// The cubes of 2^log2 voxels a side that polygons meet. Gives up, without a count, where the
+/// polygons are so large that finding the cubes takes too long.
 class Cubes {
  public:
   Cubes(int log2, double mostPieces) : log2_(log2), mostPieces_(mostPieces) {}
@@ -65,9 +65,9 @@ class Cubes {
     }
   }
 
-  /// Their number, or nothing.
+  /// Number of cubes; empty if it gave up.
   std::optional<double> count() const { return countOf(log2_); }
-  /// The number of larger ones.
+  /// Number of larger cubes; empty if it gave up.
   std::optional<double> countOf(int log2) const {
     if (!complete_) return std::nullopt;
     std::unordered_set<Coord> larger;
@@ -107,7 +107,7 @@ class Cubes {
   std::unordered_set<Coord> cubes_;
 };
 
-/// Whether a surface may become far smaller than its control mesh, so that nothing is certain.
+/// True if a surface may become far smaller than its control mesh: then nothing is certain.
 bool shrinks(const PreparedSurface& surface) {
   const auto& twin = surface.base.adjacency.twin;
   return surface.base.boundary == BoundaryStage::kPlain &&
@@ -125,14 +125,13 @@ void addAreas(const PolygonMesh& polygons, Measure& measure) {
   }
 }
 
-/// The level that an object stops at, if it stops at one whatever its faces are.
+/// The level at which all faces of an object stop; empty if they stop at different levels.
 std::optional<int> levelOf(const ConversionWay& way) {
   const bool ofLevel = way.polygons && way.until == StopRule{way.until.levels};
   return ofLevel ? way.until.levels : std::nullopt;
 }
 
-/// Active voxels per area. Vertices that stand closer than voxels miss some cubes that the surface
-/// only just cuts.
+/// Number of active voxels. Vertex conversion misses some cubes that the surface only just cuts.
 double activeVoxelsOf(const ConversionWay& way, const Measure& m) {
   constexpr double kOfCubes = 0.75;
   if (!way.polygons) return kOfCubes * m.taxicabArea;
@@ -175,10 +174,10 @@ Measure measureOf(std::span<const PreparedSurface> surfaces) {
   return all;
 }
 
-constexpr double kHeap = 16;  // what the heap needs for a node
+constexpr double kHeap = 16;  // overhead of the heap for a node
 constexpr double kFilePerUpper = 9200;
 constexpr double kFilePerLower = 1100;
-constexpr double kMoreFilePerLeaf = 50;  // of values that are all equal
+constexpr double kMoreFilePerLeaf = 50;  // if its values are all equal
 
 GridEstimate estimateMask(const Measure& m) {
   GridEstimate grid{GridKind::kMask};
@@ -197,7 +196,7 @@ double bytesOfValues(double leaves, const Measure& m) {
   return leaves * kLeaf + m.lowers * sizeof(FloatLower) + m.uppers * sizeof(FloatUpper);
 }
 
-GridEstimate estimateDensity(const Measure& m, const VolumeOptions& volume) {
+GridEstimate estimateDensity(const Measure& m, const VolumeSettings& volume) {
   GridEstimate grid = estimateMask(m);
   grid.kind = GridKind::kDensity;
   const bool solid = volume.fill == Fill::kSolid;
@@ -208,19 +207,20 @@ GridEstimate estimateDensity(const Measure& m, const VolumeOptions& volume) {
   return grid;
 }
 
-GridEstimate estimateSurface(const Measure& m, const VolumeOptions& volume) {
-  const double band = volume.band.value_or(kDefaultBand);
+GridEstimate estimateSurface(const Measure& m, const VolumeSettings& volume) {
+  const double band = volume.band;
   GridEstimate grid{GridKind::kSurface};
   grid.voxels = 2 * band * m.area;
   grid.leaves = std::max(m.leaves, (8 * m.taxicabArea + 2 * band * m.area) / FloatLeaf::SIZE);
   grid.bytes = bytesOfValues(grid.leaves, m);
   grid.peakBytes = bytesOfDistances(m.area, band).peak + grid.bytes;
-  const double filePerVoxel = volume.half.value_or(false) ? 2.6 : 4.4;
+  const double filePerVoxel = volume.half ? 2.6 : 4.4;
   grid.fileBytes = grid.voxels * filePerVoxel + m.lowers * kFilePerLower + m.uppers * kFilePerUpper;
   return grid;
 }
 
-/// Normals or colours, which vary from voxel to voxel or do not.
+/// Normals or colours.
+/// @param vary  from voxel to voxel
 GridEstimate estimateVectors(GridKind kind, const Measure& m, bool vary) {
   using Leaf = openvdb::Vec3STree::LeafNodeType;
   using Upper = openvdb::Vec3STree::RootNodeType::ChildNodeType;
@@ -237,8 +237,8 @@ GridEstimate estimateVectors(GridKind kind, const Measure& m, bool vary) {
   return grid;
 }
 
-/// Largest nodes that no resolution saves: those of a compact model around the origin, or all of
-/// one that is scattered over far more than its surface fills.
+/// Number of largest nodes at any resolution. A compact model around the origin always has some; a
+/// model that is scattered over far more space than its surface fills keeps all of them.
 double fixedUppers(const Measure& m) {
   constexpr double kAroundOrigin = 8;
   constexpr double kSide = MaskUpper::DIM;
@@ -246,7 +246,7 @@ double fixedUppers(const Measure& m) {
   return scattered ? m.uppers : std::min(m.uppers, kAroundOrigin);
 }
 
-GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeOptions& volume) {
+GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& volume) {
   switch (kind) {
     case GridKind::kMask:
       return estimateMask(m);
@@ -265,7 +265,7 @@ GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeOptions& vo
 }  // namespace
 
 Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
-                       const VolumeOptions& volume) {
+                       const VolumeSettings& volume) {
   const Measure measure = measureOf(surfaces);
   Estimate all;
   const bool voxels = needsVoxels(kinds);
@@ -311,8 +311,8 @@ std::string refusalOf(const Estimate& estimate, double longestSide, const Memory
   text << "the grids need about " << formatBytes(static_cast<std::uint64_t>(estimate.bytes))
        << " of memory on top of " << formatBytes(budget.limit() - budget.left())
        << ", the limit is " << formatBytes(budget.limit()) << "; ";
-  // Grids grow with the square of the resolution, except for their largest nodes. What is advised
-  // is to fit even if it is more than estimated.
+  // Grids grow with the square of the resolution, except for their largest nodes. The resolution
+  // that is advised fits even if the estimate is too low.
   const double scale = std::sqrt(std::max(0.0, left / kEstimateFactor - estimate.fixedBytes) /
                                  (estimate.bytes - estimate.fixedBytes));
   const double voxelSize = estimate.voxelSize / scale;

@@ -14,7 +14,7 @@ namespace vox {
 class MemoryBudget;
 class Progress;
 
-/// What a grid will be like.
+/// Expected size of a grid.
 struct GridEstimate {
   GridKind kind;
   double voxels = 0;     ///< active
@@ -24,35 +24,36 @@ struct GridEstimate {
   double fileBytes = 0;
 };
 
-/// What a conversion will make, before it is made. Numbers are within a factor of 1.5 of the truth
-/// for smooth objects that do not overlap, of some tens of voxels and more; files of
-/// textures depend on the pattern and may be a third.
+/// Expected result of a conversion. The numbers are within a factor of 1.5 of the truth for smooth
+/// objects that do not overlap and are some tens of voxels long or more. The file of a texture
+/// depends on the pattern and may be a third of the estimate.
 struct Estimate {
   double voxelSize = 0;  ///< world units
-  int levels = 0;        ///< as levelsOf
-  double voxels = 0;     ///< active; 0 if none are needed
+  int levels = 0;        ///< levelsOf the deepest object
+  double voxels = 0;     ///< active voxels of the surfaces; 0 if no grid needs them
   std::vector<GridEstimate> grids;
-  double bytes = 0;       ///< of all grids at their peak, voxels included
-  double fixedBytes = 0;  ///< of them, what does not become less with larger voxels
+  double bytes = 0;       ///< of all grids at their peak, and of the voxels of the surfaces
+  double fixedBytes = 0;  ///< the part of `bytes` that larger voxels do not reduce
   double fileBytes = 0;
-  bool certain = true;  ///< false: a surface may shrink from its boundary to far less
-  std::string refusal;  ///< why it would be refused; empty if it would not
+  bool certain = true;  ///< false: a surface may shrink from its boundary to a far smaller one
+  std::string refusal;  ///< why the conversion would be refused; empty if it would not
 };
 
-/// An estimate is refused if it is more than so many times what is left: within that it may fit.
+/// A conversion is refused if the estimate is more than this many times the memory that is left. A
+/// smaller one may fit.
 inline constexpr double kEstimateFactor = 1.5;
 
-/// Estimates from few polygons near each surface: their area, by direction, and the places of large
-/// nodes that they meet. Cheap beside the conversion.
-/// @param surfaces  in index space
+/// Estimates grids from few polygons near each surface: from their area, by direction, and from the
+/// large nodes that they meet. Costs little compared with the conversion. Sets neither voxel size
+/// nor levels.
 Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
-                       const VolumeOptions& volume);
+                       const VolumeSettings& volume);
 
-/// Doo-Sabin steps down to the deepest vertex, about.
+/// Approximate number of Doo-Sabin steps down to the deepest vertex.
 int levelsOf(const PreparedSurface& surface, const SurfaceOptions& options,
              const Progress& progress);
 
-/// Why what is estimated cannot fit, with a resolution that does; empty if it may.
+/// Why the grids cannot fit into memory, and a resolution at which they do; empty if they may fit.
 /// @param longestSide  of the input, world units
 std::string refusalOf(const Estimate& estimate, double longestSide, const MemoryBudget& budget);
 

@@ -1,4 +1,4 @@
-// What becomes of the voxels: the grids asked for, and what they need.
+// The output grids, made from voxels and surfaces.
 
 #include "libvox/pipeline/grids.h"
 
@@ -34,17 +34,18 @@ std::uint64_t bytesOfGrid(const openvdb::MaskTree& mask) {
 
 openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
                                    std::span<const PreparedSurface> surfaces,
-                                   const VolumeOptions& volume, MemoryBudget& budget,
+                                   const VolumeSettings& volume, MemoryBudget& budget,
                                    const Progress& progress) {
   openvdb::MaskTree::ConstPtr solid;
   const openvdb::MaskTree* tree = &mask.tree();
-  if (volume.fill.value_or(Fill::kSurface) == Fill::kSolid) {
+  if (volume.fill == Fill::kSolid) {
     budget.require(bytesOfFilling(*tree), "the inside", kScatteredAdvice);
     solid = solidOf(*tree, surfaces, budget, progress);
     tree = solid.get();
   }
   budget.take(bytesOfFloats(*tree), "the density grid", kScatteredAdvice);
-  const auto value = static_cast<float>(densityValue(volume, mask.voxelSize()[0]));
+  const auto value =
+      static_cast<float>(densityValue(volume.gain, volume.target, mask.voxelSize()[0]));
   auto density = densityGrid(*tree, value);
   density->setTransform(mask.transform().copy());
   density->insertMeta(kGainMetadata, openvdb::FloatMetadata(value));
@@ -93,7 +94,7 @@ bool needsVoxels(std::span<const GridKind> kinds) {
 
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
                                 std::span<const PreparedSurface> surfaces,
-                                const VolumeOptions& volume, MemoryBudget& budget,
+                                const VolumeSettings& volume, MemoryBudget& budget,
                                 Progress& progress) {
   progress.check();
   switch (kind) {

@@ -31,7 +31,7 @@ bool needsVoxels(std::span<const GridKind> kinds);
 std::shared_ptr<openvdb::GridBase> makeGrid(GridKind kind,
                                             const std::shared_ptr<openvdb::MaskGrid>& mask,
                                             std::span<const PreparedSurface> surfaces,
-                                            const VolumeOptions& volume, MemoryBudget& budget,
+                                            const VolumeSettings& volume, MemoryBudget& budget,
                                             Progress& progress);
 
 /// Work of making grids (work.h), by the area of each object in square voxels.

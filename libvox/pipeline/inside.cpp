@@ -1,4 +1,4 @@
-// What is inside the objects of a scene.
+// The inside of the objects of a scene.
 
 #include "libvox/pipeline/inside.h"
 
@@ -24,7 +24,8 @@
 namespace vox {
 namespace {
 
-/// "jack: 2 of its 3 components are open, the first of 42 faces at (1, 0, 0)".
+/// "jack: 2 of its 3 components have no inside; the first, of 42 faces, is open at (1, 0, 0)".
+/// Empty if all components have one.
 std::string describeOpen(const PreparedSurface& surface,
                          const std::vector<MeshComponent>& components,
                          const GridTransform& transform) {
@@ -55,7 +56,7 @@ std::vector<Index> facesOf(const std::vector<MeshComponent>& components, MeshCom
   return faces;
 }
 
-/// The polygons of a level, as they are voxelized.
+/// The polygons of a level cut into triangles, as they are voxelized.
 PolygonMesh triangulated(const PolygonMesh& mesh) {
   PolygonMesh cut;
   cut.points = mesh.points;

@@ -25,7 +25,8 @@ constexpr std::size_t kFacesPerTask = 1024;
 constexpr const char* kPolygonsAdvice =
     "use a larger --tolerance or larger voxels, or raise --max-memory";
 
-/// Of every point, its limit: the mean of its image vertices. Of level 1 and more.
+/// The limit of every point: the mean of its image vertices.
+/// @param mesh  of level 1 or deeper
 std::vector<Vec3d> limitPoints(const PolygonMesh& mesh, const std::vector<Vec3d>& image) {
   std::vector<Vec3d> limits(mesh.points.size(), Vec3d::Zero());
   std::vector<Index> counts(mesh.points.size(), 0);
@@ -38,7 +39,7 @@ std::vector<Vec3d> limitPoints(const PolygonMesh& mesh, const std::vector<Vec3d>
   return limits;
 }
 
-void goHalfway(PolygonMesh& mesh, const std::vector<Vec3d>& limits) {
+void moveHalfway(PolygonMesh& mesh, const std::vector<Vec3d>& limits) {
   for (std::size_t v = 0; v < limits.size(); ++v) mesh.points[v] = (mesh.points[v] + limits[v]) / 2;
 }
 
@@ -51,10 +52,10 @@ Vec3d areaVector(const PolygonMesh& mesh, Index f) {
   return sum;
 }
 
-/// How far a face lies from the surface, at most, once its vertices have gone halfway to their
-/// limits: half of what they are off along the normal, and for a quad cut in two, the way from the
-/// middle of a diagonal to the centroid, which is on the surface. Along the surface, vertices may
-/// be off by more: that does no harm.
+/// Largest distance of a face from the surface after its vertices have moved halfway to their
+/// limits: half of the distance that they had along the normal. For a quad, which is cut in two,
+/// also the distance from the middle of a diagonal to the centroid, which is on the surface.
+/// Distances along the surface do not count.
 double errorOf(const PolygonMesh& mesh, const std::vector<Vec3d>& limits, Index f) {
   const Vec3d area = areaVector(mesh, f);
   const double size = area.norm();
@@ -77,7 +78,7 @@ double errorOf(const PolygonMesh& mesh, const std::vector<Vec3d>& limits) {
   });
 }
 
-/// Faces of five and more corners cut into triangles around their centroid.
+/// Cuts faces of five and more corners into triangles around their centroid.
 PolygonMesh trianglesAndQuads(PolygonMesh mesh) {
   PolygonMesh cut;
   cut.points = std::move(mesh.points);
@@ -113,7 +114,7 @@ PolygonMesh limitPolygons(SubdivisionLevel base, double tolerance, const MemoryB
     }
     const std::vector<Vec3d> limits = limitPoints(level.mesh, image);
     if (errorOf(level.mesh, limits) <= tolerance || k == kMostLevels) {
-      goHalfway(level.mesh, limits);
+      moveHalfway(level.mesh, limits);
       return trianglesAndQuads(std::move(level.mesh));
     }
     level = nextLevel(level, std::move(image));
@@ -130,7 +131,7 @@ PolygonMesh fewPolygons(const SubdivisionLevel& base, std::optional<int> levels)
     level = nextLevel(level, imageVertices(level));
     ++k;
   } while (k < most && level.mesh.cornerCount() <= kEnoughCorners);
-  if (!levels) goHalfway(level.mesh, limitPoints(level.mesh, imageVertices(level)));
+  if (!levels) moveHalfway(level.mesh, limitPoints(level.mesh, imageVertices(level)));
   return std::move(level.mesh);
 }
 

@@ -23,14 +23,14 @@
 namespace vox {
 namespace {
 
-/// One thread's way from polygons to means.
+/// Adds the normals of polygons to the means; one for each thread.
 class NormalSink : public PolygonSink {
  public:
   explicit NormalSink(VoxelMeans& means) : writer_(means) {}
 
   bool wantsNormals() const override { return true; }
 
-  /// Faces that bend with the surface they stand for.
+  /// Faces of a smooth surface: normals are blended.
   void polygons(const PolygonMesh& piece, std::span<const Vec3d> normals) override {
     triangulate(piece, 0, piece.faceCount());
     BlendedTriangle triangle;
@@ -44,7 +44,7 @@ class NormalSink : public PolygonSink {
     });
   }
 
-  /// Faces that are flat.
+  /// Flat faces.
   void faces(const PolygonMesh& mesh, Index begin, Index end) {
     triangulate(mesh, begin, end);
     scanTriangles(mesh.points, triangles_, Separation::k26, [this](const VoxelBlock& block) {

@@ -1,17 +1,16 @@
-// The work of a conversion, as its progress is told of it beforehand.
+// Announces the work of a conversion to its progress.
 
 #include "libvox/pipeline/plan.h"
 
 #include "libvox/core/progress.h"
 #include "libvox/mesh/area.h"
 #include "libvox/pipeline/grids.h"
-#include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/work.h"
 
 namespace vox {
 namespace {
 
-/// Voxels of a level set beside those of a surface, about.
+/// Approximate number of voxels of a level set for each voxel of the surface.
 constexpr double kVoxelsOfBand = 4;
 
 double workOfWriting(GridKind kind, double area) {
@@ -40,15 +39,15 @@ std::vector<double> areasOf(const Scene& scene, const GridTransform& transform,
   return areas;
 }
 
-void plan(const Scene& scene, const ConvertOptions& options, std::span<const double> areas,
-          std::span<const GridKind> kinds, Progress& progress) {
+void plan(const Scene& scene, const Request& request, std::span<const double> areas,
+          Progress& progress) {
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    const SceneObject& object = scene.objects[i];
-    progress.plan(workOfPreparing(object, options.smoothing) +
-                  workOfSurface(areas[i], object.mesh.cornerCount()));
-    for (const GridKind kind : kinds) progress.plan(workOfWriting(kind, areas[i]));
+    const PolygonMesh& mesh = scene.objects[i].mesh;
+    progress.plan(workOfPreparing(mesh, request.objects[i].preparation.interpolates()) +
+                  workOfSurface(areas[i], mesh.cornerCount()));
+    for (const GridKind kind : request.grids) progress.plan(workOfWriting(kind, areas[i]));
   }
-  progress.plan(workOfGrids(areas, kinds));
+  progress.plan(workOfGrids(areas, request.grids));
 }
 
 }  // namespace vox

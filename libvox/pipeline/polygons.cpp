@@ -24,17 +24,17 @@
 namespace vox {
 namespace {
 
-/// Faces of a part: enough to fill the scan's vector lanes, few enough that large ones are shared
-/// out.
+/// Faces of a task: enough to fill the scan's vector lanes, few enough that large faces are shared
+/// among threads.
 constexpr std::size_t kFacesPerPart = 64;
 
-/// Triangles longer than that, in voxels, are scanned in parts.
+/// Triangles that are longer, in voxels, are scanned in parts.
 constexpr double kLongTriangle = 512;
 
-/// Each thread's way from faces to voxels.
 class ScanSink;
 using ScanSinks = tbb::enumerable_thread_specific<ScanSink>;
 
+/// Scans faces into the grid; one for each thread.
 class ScanSink : public PolygonSink {
  public:
   ScanSink(ActiveVoxels& grid, Separation separation, const Progress& progress, ScanSinks& all)
@@ -78,7 +78,7 @@ class ScanSink : public PolygonSink {
     cache_.addBlock({block.origin[0], block.origin[1], block.origin[2]}, block.voxels);
   }
 
-  /// Isolated: a thread that waits for the others must not begin another piece.
+  /// Isolated: while a thread waits for the others, it must not start another piece.
   void scanInParts(const Corners& corners) {
     tbb::this_task_arena::isolate([&] {
       parallelForEach(scanPartCount(corners), 1, [&](std::int64_t part) {
@@ -109,7 +109,7 @@ void scanFaces(const PolygonMesh& mesh, Progress& progress, ScanSinks& sinks) {
   });
 }
 
-/// The whole mesh of a level.
+/// Scans the whole mesh of a level.
 void scanLevel(SubdivisionLevel base, int levels, MemoryBudget& budget, Progress& progress,
                ActiveVoxels& grid, ScanSinks& sinks) {
   const PolygonMesh mesh = subdividedWithin(budget, std::move(base), levels, progress).mesh;

@@ -1,32 +1,32 @@
 #pragma once
 
 #include "libvox/core/memory.h"
-#include "libvox/core/progress.h"
 #include "libvox/grid/transform.h"
-#include "libvox/options/grid_kind.h"
-#include "libvox/options/volume_options.h"
-#include "libvox/pipeline/convert.h"
+#include "libvox/io/scene_file.h"
+#include "libvox/pipeline/conversion_report.h"
 #include "libvox/pipeline/estimate.h"
-#include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/prepared_surface.h"
+#include "libvox/pipeline/request.h"
 
 #include <vector>
 
 namespace vox {
 
-/// Everything that a conversion begins with.
-struct Preparation {
+class Progress;
+
+/// A scene that is ready to voxelize.
+struct PreparedScene {
   MemoryBudget budget;
-  std::vector<GridKind> kinds;
-  VolumeOptions volume;
   GridTransform transform = {};
   std::vector<double> areas = {};              ///< areasOf
-  std::vector<PreparedSurface> surfaces = {};  ///< one per object, their ways only about
+  std::vector<PreparedSurface> surfaces = {};  ///< one for each object, in index space
   Estimate estimate = {};                      ///< without levels; may hold a refusal
 };
 
-/// Prepares every object in index space, and announces the work of all stages.
+/// Prepares every object, estimates the grids, and announces the work of all stages. Reports voxel
+/// size, threads, warnings and what preparation did to each object.
 /// @throws as convert, except that grids which do not fit are no error: see Estimate::refusal
-Preparation prepareScene(const Scene& scene, const ConvertOptions& options, Progress& progress,
-                         ConvertReport& report);
+PreparedScene prepareScene(const Scene& scene, const Request& request, Progress& progress,
+                           ConvertReport& report);
 
 }  // namespace vox

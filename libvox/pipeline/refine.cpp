@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kRefineAdvice = "use fewer levels, or raise --max-memory";
 
-/// Repeats a mesh error with the file and object it is about.
+/// Adds the names of file and object to mesh errors.
 template <class Work>
 auto namingObject(const Scene& scene, const SceneObject& object, Work&& work) {
   try {
@@ -34,36 +34,21 @@ auto namingObject(const Scene& scene, const SceneObject& object, Work&& work) {
   }
 }
 
-/// Where the vertices of a prepared mesh come from.
+/// The input vertices that the vertices of a prepared mesh come from.
 struct VertexOrigin {
-  std::vector<Index> weldedTo;  ///< per vertex of the input: the one it was welded to, or itself
-  std::vector<Index> of;        ///< per prepared vertex: a vertex of the input
+  std::vector<Index> weldedTo;  ///< for each input vertex: the one that it was welded to, or itself
+  std::vector<Index> of;        ///< for each prepared vertex: an input vertex
 };
 
-void requireConsistent(const Scene& scene, const SceneObject& object,
-                       const SmoothingOptions& smoothing, const SmoothingOptions& own) {
-  const bool boundary =
-      own.interpolate == Interpolate::kBoundary || own.interpolate == Interpolate::kBoth;
-  if (boundary && own.boundary == BoundaryRule::kFree)
-    throw UsageError(object.name +
-                     ": a free boundary cannot be interpolated; use --boundary extend, or "
-                     "--interpolate none or interior");
-  if (smoothing.interpolatedVertices && scene.objects.size() > 1)
-    throw UsageError("--interpolate-vertices needs a scene of one object, not " +
-                     std::to_string(scene.objects.size()) +
-                     "; use interpolate_vertices in the scene");
-}
-
-/// The mesh of an object made sound, with one line of what had to be done for it.
-PolygonMesh soundMeshOf(const Scene& scene, const SceneObject& object,
-                        const PreparationOptions& options, VertexOrigin& origin,
-                        std::vector<std::string>& warnings) {
+/// The mesh of an object made sound; a warning tells what was done to it.
+PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
+                        VertexOrigin& origin, std::vector<std::string>& warnings) {
   RepairOptions repair;
-  repair.weldTolerance = options.weldTolerance.value_or(scene.weldTolerance.value_or(0));
+  repair.weldTolerance = preparation.weldTolerance;
   SoundReport report;
   PolygonMesh mesh = soundMesh(object.mesh, repair, report);
   const std::string done = summary(report);
-  if (options.strict.value_or(scene.strict.value_or(false)) && !done.empty())
+  if (preparation.strict && !done.empty())
     throw MeshError("needs repair, which strict forbids: " + firstAction(report) +
                     "; in all: " + done);
   if (mesh.faceCount() == 0) throw MeshError("nothing is left after repair: " + done);
@@ -73,8 +58,7 @@ PolygonMesh soundMeshOf(const Scene& scene, const SceneObject& object,
   return mesh;
 }
 
-/// The vertices of the prepared mesh that some vertices of the input have become: each with all
-/// its copies.
+/// The vertices of the prepared mesh that come from some input vertices, copies included.
 std::vector<Index> verticesFrom(std::span<const Index> inputVertices, const VertexOrigin& origin) {
   std::vector<Index> wanted(origin.weldedTo.size(), kNone);
   for (const Index v : inputVertices) {
@@ -98,12 +82,6 @@ std::vector<Index> verticesFrom(std::span<const Index> inputVertices, const Vert
   return found;
 }
 
-/// Whether an object interpolates anything, by its own smoothing.
-bool interpolates(const SmoothingOptions& own) {
-  return own.interpolate.value_or(Interpolate::kNothing) != Interpolate::kNothing ||
-         (own.interpolatedVertices && !own.interpolatedVertices->empty());
-}
-
 /// Peak of interpolation: an image per corner, and the vectors of the solver.
 std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
   constexpr std::uint64_t kPerCorner = sizeof(Vec3d) + sizeof(Index);
@@ -111,12 +89,12 @@ std::uint64_t bytesOfInterpolation(const PolygonMesh& mesh) {
   return mesh.cornerCount() * kPerCorner + mesh.pointCount() * kPerVertex;
 }
 
-/// Every step makes four times as much as the one before.
+/// Share of step k in the work: every step makes four times as much as the step before.
 double partOfStep(int k, int levels) {
   return 3 * std::ldexp(1.0, 2 * (k - 1)) / (std::ldexp(1.0, 2 * levels) - 1);
 }
 
-/// append (polygon_mesh.h), if they fit.
+/// append (polygon_mesh.h), if all elements fit in 32 bits.
 void appendWithin(PolygonMesh& all, PolygonMesh part) {
   if (std::uint64_t{all.cornerCount()} + part.cornerCount() >= kNone ||
       std::uint64_t{all.pointCount()} + part.pointCount() >= kNone)
@@ -132,30 +110,31 @@ struct RefineWork {
   double prepare;
   double subdivide;
   double write;
-  RefineWork(const SceneObject& object, int levels, const SmoothingOptions& smoothing)
-      : prepare(workOfPreparing(object, smoothing)),
-        subdivide(kPerCorner * object.mesh.cornerCount() * std::ldexp(1.0, 2 * levels)),
-        write(kWritingPerCorner * object.mesh.cornerCount() * std::ldexp(1.0, 2 * levels)) {}
+  RefineWork(const PolygonMesh& mesh, int levels, bool interpolates)
+      : prepare(workOfPreparing(mesh, interpolates)),
+        subdivide(kPerCorner * mesh.cornerCount() * std::ldexp(1.0, 2 * levels)),
+        write(kWritingPerCorner * mesh.cornerCount() * std::ldexp(1.0, 2 * levels)) {}
 
  private:
   static constexpr double kPerCorner = 50;
   static constexpr double kWritingPerCorner = 200;
 };
 
-Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& preparation,
-                     const RunOptions& run, Progress& progress) {
-  for (const SceneObject& object : scene.objects) {
-    const RefineWork work(object, levels, preparation.smoothing);
-    progress.plan(work.prepare + work.subdivide + work.write);
+Refinement refineAll(const Scene& scene, int levels,
+                     std::span<const ObjectPreparation> preparations, MemoryBudget budget,
+                     Progress& progress) {
+  std::vector<RefineWork> works;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    works.emplace_back(scene.objects[i].mesh, levels, preparations[i].interpolates());
+    progress.plan(works[i].prepare + works[i].subdivide + works[i].write);
   }
-  MemoryBudget budget(run.maxMemory);
   Refinement all;
-  for (const SceneObject& object : scene.objects) {
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
     budget.take(bytesOf(object.mesh), "the input", kRefineAdvice);
-    const RefineWork work(object, levels, preparation.smoothing);
-    progress.begin("prepare", work.prepare);
-    PreparedObject prepared = prepare(scene, object, preparation, budget, progress);
-    progress.begin("subdivide", work.subdivide);
+    progress.begin("prepare", works[i].prepare);
+    PreparedObject prepared = prepare(scene, object, preparations[i], budget, progress);
+    progress.begin("subdivide", works[i].subdivide);
     PolygonMesh part = subdividedWithin(budget, std::move(prepared.base), levels, progress).mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
@@ -166,10 +145,6 @@ Refinement refineAll(const Scene& scene, int levels, const PreparationOptions& p
 }
 
 }  // namespace
-
-double workOfPreparing(const SceneObject& object, const SmoothingOptions& said) {
-  return workOfPreparing(object.mesh, interpolates(overriding(said, object.smoothing)));
-}
 
 std::uint64_t bytesOf(const PolygonMesh& mesh) {
   return mesh.points.size() * sizeof(Vec3d) +
@@ -210,10 +185,8 @@ void requireValidScene(const Scene& scene) {
 }
 
 PreparedObject prepare(const Scene& scene, const SceneObject& object,
-                       const PreparationOptions& options, const MemoryBudget& budget,
+                       const ObjectPreparation& preparation, const MemoryBudget& budget,
                        Progress& progress) {
-  const SmoothingOptions own = overriding(options.smoothing, object.smoothing);
-  requireConsistent(scene, object, options.smoothing, own);
   constexpr std::uint64_t kPerCorner = 4 * sizeof(EdgeCorner) + 12 * sizeof(Index);
   budget.require(bytesOf(object.mesh) + object.mesh.cornerCount() * kPerCorner,
                  "finding neighbours", "raise --max-memory");
@@ -221,18 +194,17 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
   SubdivisionLevel& base = prepared.base;
   namingObject(scene, object, [&] {
     VertexOrigin origin;
-    PolygonMesh mesh = soundMeshOf(scene, object, options, origin, prepared.warnings);
+    PolygonMesh mesh = soundMeshOf(object, preparation, origin, prepared.warnings);
     progress.check();
-    base = baseLevel(std::move(mesh), own.boundary.value_or(BoundaryRule::kExtend));
+    base = baseLevel(std::move(mesh), preparation.boundary);
     progress.check();
-    if (!interpolates(own)) return;
+    if (!preparation.interpolates()) return;
     progress.done(kPartBeforeInterpolation);
     budget.require(bytesOf(base) + bytesOfInterpolation(base.mesh), "interpolation",
                    "raise --max-memory");
-    base.mesh = interpolate(
-        std::move(base.mesh), base.adjacency, own.interpolate.value_or(Interpolate::kNothing),
-        verticesFrom(own.interpolatedVertices.value_or(std::vector<Index>()), origin),
-        prepared.interpolation);
+    base.mesh =
+        interpolate(std::move(base.mesh), base.adjacency, preparation.interpolate,
+                    verticesFrom(preparation.interpolatedVertices, origin), prepared.interpolation);
   });
   return prepared;
 }
@@ -240,11 +212,14 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
 Refinement refine(const Scene& scene, int levels, const PreparationOptions& preparation,
                   const RunOptions& run) {
   if (levels < 0) throw UsageError("--levels must be 0 or more, not " + std::to_string(levels));
+  requirePreparable(scene, preparation);
   requireValidScene(scene);
+  const std::vector<ObjectPreparation> preparations = preparationsOf(scene, preparation);
   Progress unwatched;
   Progress& progress = run.progress != nullptr ? *run.progress : unwatched;
-  return onThreads(run.threads,
-                   [&] { return refineAll(scene, levels, preparation, run, progress); });
+  return onThreads(run.threads, [&] {
+    return refineAll(scene, levels, preparations, MemoryBudget(run.maxMemory), progress);
+  });
 }
 
 }  // namespace vox

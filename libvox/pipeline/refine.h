@@ -1,11 +1,10 @@
 #pragma once
 
-#include "libvox/core/memory.h"
-#include "libvox/core/progress.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/options/preparation_options.h"
 #include "libvox/options/run_options.h"
+#include "libvox/pipeline/request.h"
 #include "libvox/prepare/interpolate.h"
 #include "libvox/subdivide/doo_sabin.h"
 
@@ -15,15 +14,18 @@
 
 namespace vox {
 
+class MemoryBudget;
+class Progress;
+
 struct Refinement {
   PolygonMesh mesh;
-  std::vector<std::string> warnings;  ///< one line each: what the user may not expect
+  std::vector<std::string> warnings;  ///< one line each
 };
 
 /// All objects of a scene as one mesh, after K Doo-Sabin steps; K = 0 gives the control meshes:
 /// repaired, oriented, and lifted where vertices are interpolated. The progress keeps a share for
 /// writing the mesh: beginLast.
-/// @throws UsageError  levels < 0; as prepare
+/// @throws UsageError  levels < 0; as requirePreparable and prepare
 /// @throws MeshError   an object has contradictory arrays, or cannot be prepared; the message names
 ///   file, object and element
 /// @throws LimitError  not enough memory, or more elements than fit in 32 bits
@@ -38,28 +40,25 @@ struct PreparedObject {
   std::vector<std::string> warnings;
 };
 
-/// Prepares an object in world space: repair, orientation, interpolation. What `options` set goes
-/// before what the scene and the object say. Credits the current stage of `progress`.
-/// @throws UsageError  the boundary is to be interpolated but free; vertices to interpolate are
-///   given for more than one object at once; the weld tolerance is negative or not finite
+/// Prepares an object in world space: repair, orientation, interpolation. Credits the current stage
+/// of `progress`.
+/// @throws UsageError  the weld tolerance is negative or not finite
 /// @throws MeshError   something had to be repaired or turned round though `strict` forbids it,
 ///   nothing is left after repair, or a vertex cannot be interpolated; the message names file,
 ///   object and element
 /// @throws LimitError  not enough memory
 /// @throws Cancelled
 PreparedObject prepare(const Scene& scene, const SceneObject& object,
-                       const PreparationOptions& options, const MemoryBudget& budget,
+                       const ObjectPreparation& preparation, const MemoryBudget& budget,
                        Progress& progress);
-
-/// Work (work.h) of preparing an object, where what `said` sets goes before what it says itself.
-double workOfPreparing(const SceneObject& object, const SmoothingOptions& said);
 
 /// K Doo-Sabin steps.
 /// @throws LimitError  a level does not fit into the budget, or has 2^32 - 1 corners or more
 SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel level, int levels,
                                   Progress& progress);
 
-/// Checks the arrays of every object (requireValidArrays), naming file and object.
+/// Checks the arrays of every object (requireValidArrays).
+/// @throws MeshError  the message names file and object
 void requireValidScene(const Scene& scene);
 
 // Memory of subdivision, in bytes.

@@ -30,7 +30,7 @@ void requireFeasible(const PolygonPlan& plan) {
   throw LimitError(message.str());
 }
 
-/// Passes pieces on to the sink of the thread, and the tiles of large arrays to all threads.
+/// Passes pieces to the sink of the thread, and shares the tiles of large arrays among all threads.
 class TaskSink : public PolygonSink {
  public:
   TaskSink(const std::function<PolygonSink&()>& sinkOfThread, Progress& progress,
@@ -49,7 +49,7 @@ class TaskSink : public PolygonSink {
 
   void tiles(const ArrayTiles& tiles) override {
     const double part = tiles.vertices() / allVertices_ / static_cast<double>(tiles.count());
-    // Isolated: a thread that waits must not begin another submesh.
+    // Isolated: while a thread waits for tiles, it must not start another submesh.
     tbb::this_task_arena::isolate([&] {
       parallelForEach(tiles.count(), 1, [&](std::int64_t tile) {
         progress_.check();
@@ -60,7 +60,7 @@ class TaskSink : public PolygonSink {
     credited_ += tiles.vertices();
   }
 
-  /// After the submesh.
+  /// Call after the submesh.
   void finish(double vertices) {
     progress_.done(std::max(0.0, vertices - credited_) / allVertices_);
   }

@@ -36,14 +36,17 @@ constexpr int kMostLevelsOfTask = 8;
 
 using ThreadSinks = tbb::enumerable_thread_specific<VertexSink>;
 
-/// The part of a submesh in the work, credited as its vertices are made. How many they are is known
-/// once the last of its patches is; what is done until then is kept back.
+/// The share of a submesh in the work. It is credited to the progress in proportion to the vertices
+/// that are made. Their total is known only after the last patch; work done until then is credited
+/// at that time.
 class SubmeshPart {
  public:
   SubmeshPart(Progress& progress, double part) : progress_(progress), part_(part) {}
 
-  void did(double vertices) { credit(vertices, 0); }
-  void isAll(double vertices) { credit(0, std::max(1.0, vertices)); }
+  /// Some vertices are made.
+  void add(double vertices) { credit(vertices, 0); }
+  /// The total is known.
+  void setTotal(double vertices) { credit(0, std::max(1.0, vertices)); }
 
  private:
   void credit(double vertices, double all) {
@@ -64,7 +67,7 @@ class SubmeshPart {
   double perVertex_ = 0;  // 0: not known yet
 };
 
-/// A patch, k levels above what it becomes.
+/// A patch that is to be subdivided k times.
 struct DeepPatch {
   Patch patch;
   int k;
@@ -74,18 +77,18 @@ struct DeepPatch {
   double vertices() const { return std::ldexp(1.0, 2 * k); }
 };
 
-/// Splits deep patches, depth first.
+/// Splits deep patches into parts that are small enough for a task, depth first.
 class DeepPatches {
  public:
-  /// @param asTasks  each part of a patch may go to another thread
+  /// @param asTasks  parts of a patch are tasks, which other threads may take
   DeepPatches(ThreadSinks& sinks, Progress& progress, bool asTasks)
       : sinks_(sinks), progress_(progress), asTasks_(asTasks) {}
   ~DeepPatches() {
-    tasks_.cancel();  // no effect on what is done
+    tasks_.cancel();  // no effect on tasks that are done
     try {
       tasks_.wait();
     } catch (...) {
-      // What stopped this thread is already on its way.
+      // The exception that stopped this thread is already on its way to the caller.
     }
   }
   DeepPatches(const DeepPatches&) = delete;
@@ -99,7 +102,7 @@ class DeepPatches {
     progress_.check();
     if (deep.k <= kMostLevelsOfTask) {
       sinks_.local().patch(deep.patch, deep.k, deep.level);
-      deep.part->did(deep.vertices());
+      deep.part->add(deep.vertices());
       return;
     }
     for (const auto& row : childrenOf(deep.patch))
@@ -112,7 +115,8 @@ class DeepPatches {
       }
   }
 
-  /// Until all are marked. @throws what marking one threw
+  /// Waits until all are marked.
+  /// @throws the exception that marking one of them threw
   void wait() { tasks_.wait(); }
 
  private:
@@ -123,7 +127,7 @@ class DeepPatches {
   tbb::task_group tasks_;
 };
 
-/// Where a submesh goes: what is small to the sink of the thread, what is deep to be split.
+/// Passes the small patches of a submesh to the sink of the thread. Deep patches are split.
 class SubmeshSink : public SurfaceSink {
  public:
   SubmeshSink(VertexSink& sink, DeepPatches& deepPatches, std::shared_ptr<SubmeshPart> part)
@@ -150,11 +154,11 @@ class SubmeshSink : public SurfaceSink {
       later_.push_back(deep);
   }
 
-  /// After the last patch.
+  /// Call after the last patch.
   void finish() {
     const double here = verticesOf(sink_) - verticesBefore_;
-    part_->isAll(here + deepVertices_);
-    part_->did(here);
+    part_->setTotal(here + deepVertices_);
+    part_->add(here);
     for (const DeepPatch& deep : later_) deepPatches_.mark(deep);
   }
 
@@ -171,7 +175,7 @@ class SubmeshSink : public SurfaceSink {
   double deepVertices_ = 0;
 };
 
-/// What part of the work each submesh is; they add up to 1.
+/// Share of each submesh in the work. The shares add up to 1.
 std::vector<double> partsOf(const Partition& partition, const PolygonMesh& mesh) {
   std::vector<double> parts(partition.size(), 0.0);
   constexpr std::size_t kSubmeshesPerTask = 16;
@@ -201,14 +205,14 @@ void markSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& options, 
   deepPatches.wait();
 }
 
-/// Bytes of the next step, and of what decides which of its vertices are deep enough.
+/// Bytes of the next step, and of the tables that tell which of its vertices are deep enough.
 std::uint64_t bytesOfGlobalStep(const SubdivisionLevel& level) {
   constexpr std::uint64_t kPerPoint = sizeof(Vec3d) + sizeof(int) + sizeof(Index) + 1;
   return bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level) +
          nextPointCount(level) * kPerPoint + nextCornerCount(level) * sizeof(int);
 }
 
-/// How many steps the whole mesh is expected to take.
+/// Expected number of steps for the whole mesh.
 int globalSteps(const PolygonMesh& mesh) {
   double largest = 1;
   std::vector<Vec3d> points;

@@ -28,10 +28,10 @@ namespace {
 
 using Writers = tbb::enumerable_thread_specific<VoxelMeans::Writer>;
 
-/// Samples of a task, about.
+/// Approximate number of samples of a task.
 constexpr std::int64_t kSamplesPerTask = 4096;
 
-/// Calls body for each of `rows` rows of so many samples.
+/// Calls body for each of `rows` rows of `columns` samples.
 template <class Body>
 void forRows(std::int64_t rows, std::int64_t columns, Body&& body) {
   const std::int64_t grain = std::max<std::int64_t>(1, kSamplesPerTask / columns);
@@ -70,7 +70,7 @@ class VertexSamples : public ColoredSink {
 
 void sampleVertices(const SubdivisionLevel& base, std::span<const Vec3d> colors,
                     const MemoryBudget& budget, const Progress& progress, Writers& writers) {
-  // No fewer faces than around any vertex or in any face, which every submesh there makes whole.
+  // At least as many faces as meet at any vertex or edge: a submesh there needs all of them.
   constexpr Index kLeast = 256;
   const Index largest = largestNeighbourhood(base.mesh);
   const Partition partition = coverGreedily(base.mesh, base.adjacency, std::max(kLeast, largest));
@@ -86,7 +86,7 @@ void sampleVertices(const SubdivisionLevel& base, std::span<const Vec3d> colors,
   VertexSamples samples(writers);
   parallelForEach(partition.size(), 1, [&](Index s) {
     progress.check();
-    // A thread that waits for the rows of one submesh must not begin another.
+    // Isolated: while a thread waits for rows, it must not start another submesh.
     tbb::this_task_arena::isolate([&] { surfaces.local().emit(partition.submesh(s), samples); });
   });
 }
@@ -109,7 +109,7 @@ std::int64_t stepsBetween(const Sample& a, const Sample& b) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(kPerVoxel * length)));
 }
 
-/// Rows across the longer sides, so that needles cost what they cover.
+/// Samples in rows parallel to the shortest side, so that a needle takes few samples.
 void sampleTriangle(std::array<Sample, 3> corners, Writers& writers) {
   const auto length = [&](std::size_t i) { return stepsBetween(corners[i], corners[(i + 1) % 3]); };
   while (length(0) > length(1) || length(0) > length(2))
@@ -128,7 +128,7 @@ void sampleTriangle(std::array<Sample, 3> corners, Writers& writers) {
   });
 }
 
-/// The level, with the colours of its points; at level 0, of its corners.
+/// A level with the colours of its points; level 0: with the colours of its corners.
 ColoredLevel coloredLevel(const SubdivisionLevel& base, std::span<const Vec3d> colors, int levels,
                           const MemoryBudget& budget, const Progress& progress) {
   ColoredLevel colored{base, {colors.begin(), colors.end()}};

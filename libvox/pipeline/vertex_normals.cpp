@@ -23,7 +23,7 @@
 namespace vox {
 namespace {
 
-/// One thread's part of normals at vertices.
+/// Buffers of one thread.
 struct VertexNormals {
   LocalVertices vertices;
   VertexArray array;
@@ -43,7 +43,7 @@ void samplePatch(const Patch& patch, int levels, const Progress& progress, Sampl
   });
 }
 
-/// The vertices that emitRegular makes of it.
+/// Samples the vertices that vertex conversion makes of a thin patch.
 void sampleThin(const ThinPatch& thin, const Progress& progress, NormalSampler& sampler) {
   const std::int64_t n = std::int64_t{1} << thin.levels;
   constexpr auto kMostOfRow = static_cast<std::int64_t>(LeafCache::kPositionsAtOnce);
@@ -68,7 +68,7 @@ void sampleThin(const ThinPatch& thin, const Progress& progress, NormalSampler& 
 void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
                   const Progress& progress, VertexNormals& normals, Samplers& samplers) {
   const LevelOneVertex vertex = normals.vertices.at(corner);
-  // As many vertices of a patch as activate voxels: with fewer, voxels would be left out.
+  // All vertices that switched on voxels: with fewer, voxels would be left without a normal.
   const auto sample = [&](const Patch& patch) {
     forEachPatchPart(
         PatchPart(patch), 0,
@@ -82,7 +82,7 @@ void sampleVertex(const LocalVertices::Corner& corner, const DepthRule& rule,
   if (!vertex.whole()) return samplers.local().point(vertex.at, faces.f.normal);
   normals.array.set(vertex, rule.of(vertex, &faces, {}), true);
   for (const VertexArray::Block& block : normals.array.blocks())
-    if (block.depth == VertexDepth{})  // its patch may tell no more than the tangents
+    if (block.depth == VertexDepth{})  // the patch may hold only the tangents
       samplers.local().patch(continued(block.patch), 0, 0);
     else
       sample(block.patch);
@@ -96,7 +96,7 @@ void addNormalsOfVertices(const SubdivisionLevel& base, Progress& progress, Voxe
   Samplers samplers([&] { return NormalSampler(means); });
   tbb::enumerable_thread_specific<VertexNormals> threads([&] { return VertexNormals(base); });
   parallelForEach(partition.size(), 1, [&](Index s) {
-    // Isolated: a thread that waits for parts of a patch must not begin another submesh.
+    // Isolated: while a thread waits for parts of a patch, it must not start another submesh.
     tbb::this_task_arena::isolate([&] {
       VertexNormals& normals = threads.local();
       const auto faces = partition.submesh(s);

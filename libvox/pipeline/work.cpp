@@ -1,4 +1,4 @@
-// What stages cost, roughly.
+// Approximate cost of the stages.
 
 #include "libvox/pipeline/work.h"
 

@@ -6,23 +6,20 @@
 
 namespace vox {
 
-// What stages cost beside each other, in nanoseconds of one thread as once measured. Only the bar
-// that shows how far a run has come depends on it.
+// Approximate cost of the stages, in nanoseconds of one thread as once measured. Only the progress
+// bar depends on it. Areas are those of control meshes, in square voxels.
 
-/// Of making a mesh an oriented manifold, and of moving its vertices where it is to interpolate.
+/// Makes a mesh an oriented manifold; if it interpolates, moves its vertices.
 double workOfPreparing(const PolygonMesh& mesh, bool interpolates);
-/// What of it is done when interpolation begins.
+/// The part of workOfPreparing that is done when interpolation begins.
 inline constexpr double kPartBeforeInterpolation = 0.6;
-/// Of a surface, or a part of it.
-/// @param area  of its control mesh, in square voxels
+/// Makes the voxels of a surface, or of a part of it.
 double workOfSurface(double area, std::uint64_t corners);
-/// Of turning the voxels into a density grid.
+/// Makes a grid from the voxels.
 double workOfDensity(double area);
-/// Of finding the normals of the voxels.
 double workOfNormals(double area);
-/// Of colouring them.
 double workOfColor(double area);
-/// Of writing a grid.
+/// Writes a grid.
 double workOfWritingMask(double area);
 double workOfWritingDensity(double area);
 double workOfWritingNormals(double area);

@@ -28,7 +28,7 @@ constexpr std::array<std::pair<const char*, View>, 7> kViews = {{{"front", {0, 0
 
 /// Tangent of half the angle of view, along the longer side of a picture: a normal lens.
 constexpr double kTangent = 0.3;
-/// Of the picture, on each side.
+/// Margin on each side, as a part of the picture.
 constexpr double kMargin = 0.04;
 
 /// The whole text as a finite number.
@@ -154,8 +154,8 @@ Camera Framing::orthographic(double leastHalfHeight) const {
   return camera;
 }
 
-/// Every point p is in sight if (p - eye).right <= tangent (p - eye).forward, and so on for the
-/// other three sides; what most_ holds are the extremes of these conditions.
+/// A point p is in sight if (p - eye).right <= tangent (p - eye).forward, and likewise for the
+/// other three sides; most_ holds the extremes of these conditions.
 Camera Framing::perspective() const {
   Camera camera{Projection::kPerspective, axes_, Vec3d::Zero(), 0, 0};
   camera.halfWidth = kTangent * std::min(1.0, aspect_);

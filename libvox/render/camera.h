@@ -13,14 +13,14 @@
 
 namespace vox {
 
-/// Where from to look at a model, in degrees.
+/// Direction from which a model is seen, in degrees.
 struct View {
   double azimuth = 0;    ///< around the up axis: 0 front, 90 right, 180 back, 270 left
   double elevation = 0;  ///< above the horizon, -90 .. 90
   bool operator==(const View&) const = default;
 };
 
-/// A view by its name ("front", "iso").
+/// The view of that name ("front", "iso"); empty if there is none.
 std::optional<View> viewNamed(std::string_view name);
 /// For messages: "front, back, left, right, top, bottom, iso".
 std::string allViewNames();
@@ -58,7 +58,7 @@ struct Camera {
   Sight through(double x, double y) const;
 };
 
-/// Finds the camera that shows all points as large as they fit, in the middle, with a margin.
+/// Finds the camera that shows all points as large as possible, in the middle, with a margin.
 class Framing {
  public:
   /// @param aspect  width of the picture / its height
@@ -69,7 +69,7 @@ class Framing {
   /// Half the height that a parallel projection needs; 0 for a perspective. World units.
   double halfHeight() const;
 
-  /// @param leastHalfHeight  shows at least so much: for several views at one scale
+  /// @param leastHalfHeight  least half height of the picture: for several views at one scale
   Camera camera(double leastHalfHeight = 0) const;
 
  private:

@@ -18,14 +18,14 @@ namespace {
 using openvdb::Coord;
 using openvdb::CoordBBox;
 
-/// Boxes of the voxels below each child of a root. Rays are clipped to them first: the root itself
-/// may span two thousand million voxels with hardly anything inside.
+/// Boxes of the voxels below each child of a root. Rays are clipped to them first: the box of the
+/// root may be two thousand million voxels long and almost empty.
 template <class TreeT>
 struct RootBoxes {
   using Child = typename TreeT::RootNodeType::ChildNodeType;
   struct Entry {
     CoordBBox box;
-    const Child* child;  // nothing for an active tile
+    const Child* child;  // null for an active tile
   };
   std::vector<Entry> entries;
 

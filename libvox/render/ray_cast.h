@@ -15,9 +15,9 @@ using IndexRay = openvdb::math::Ray<double>;
 
 struct RayHit {
   double time = 0;
-  openvdb::Coord voxel;  ///< that was hit, or that holds the point that was
-  Vec3d face;  ///< unit outward normal of what was hit there, index space: of the side of a
-               ///< voxel, or of an isosurface
+  openvdb::Coord voxel;  ///< the voxel that was hit, or the voxel that holds the point of the hit
+  Vec3d face;  ///< unit outward normal at the hit, index space: of the side of a voxel, or of an
+               ///< isosurface
 };
 
 /// A surface that rays can hit. Not thread-safe: a task makes a copy.

@@ -1,4 +1,4 @@
-// A ray or more for every pixel, in tiles.
+// One ray or more for every pixel, in tiles.
 
 #include "libvox/render/render.h"
 
@@ -72,8 +72,8 @@ double screenOf(double light) {
   return shown <= kEndOfStraightPart ? 12.92 * shown : 1.055 * std::pow(shown, 1 / 2.4) - 0.055;
 }
 
-/// @param light    sum of what the samples that hit reflect
-/// @param covered  the part of the samples that hit
+/// @param light    sum of the light of all samples that hit
+/// @param covered  share of the samples that hit
 Pixel pixelOf(const Light& light, double covered, const Pixel& background) {
   if (covered <= 0) return background;
   Pixel pixel;

@@ -27,24 +27,24 @@ struct RenderOptions {
   Pixel background = {255, 255, 255, 255};  ///< its coverage is 0 or 255
   std::uint64_t maxMemory = 0;   ///< bytes for the image; 0: three quarters of what is free
   int threads = 0;               ///< 0: all processors
-  Progress* progress = nullptr;  ///< told how far the run is; may cancel it
+  Progress* progress = nullptr;  ///< is told how far the run is; may cancel it
 };
 
 inline constexpr int kMostPixelsAcross = 16384;  ///< of a picture
 inline constexpr int kMostSamples = 16;
 inline constexpr int kMostOcclusionRays = 256;
 
-/// Checks before the work starts what render would refuse.
+/// Checks the options before the work starts.
 /// @throws UsageError  an option is out of range
 void requireRenderable(const RenderOptions& options);
 
-/// Pictures of what there is to see: every view framed to fill its part of the image, all at one
-/// scale if the projection is orthographic; row by row, as near to a square as it gets. The image
-/// does not depend on the number of threads.
+/// Pictures of grids, one for each view, in rows that make the image as near to a square as
+/// possible. Every view fills its part of the image; orthographic views all have the same scale.
+/// The image does not depend on the number of threads.
 ///
 /// @throws UsageError  as requireRenderable
 /// @throws LimitError  the image does not fit into memory
-/// @throws Cancelled   options.progress says so; it is told a stage "render"
+/// @throws Cancelled   options.progress is cancelled; its stage is "render"
 Image render(const VisibleGrids& visible, const RenderOptions& options);
 
 /// Pictures of the grids of a file: of visibleGrids(grids, what), which may throw besides.

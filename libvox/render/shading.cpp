@@ -14,18 +14,19 @@
 namespace vox {
 namespace {
 
-// Toward the lamps and up the sky, by the axes of the camera: right, up, toward the viewer.
+// Directions to the lamps and to the top of the sky, by the axes of the camera: right, up, toward
+// the viewer.
 const Vec3d kLamp = Vec3d(-0.6, 0.7, 0.5).normalized();
 const Vec3d kFill = Vec3d(0.9, 0, 0.3).normalized();
 constexpr double kLampLight = 0.85;
 constexpr double kFillLight = 0.08;
 constexpr double kSkyLight = 0.22;
-constexpr double kGroundLight = 0.4;  // of the sky's
+constexpr double kGroundLight = 0.4;  // relative to the sky
 
-/// Of a surface that has no colour.
+/// Colour of a surface that has none.
 constexpr double kAlbedo = 0.68;
 
-/// How far a surface is in the way of its own sky, by its longest side.
+/// Length of the rays that look for the sky, relative to the longest side of the surface.
 constexpr double kOcclusionReach = 0.12;
 /// Where such rays start, in voxels above the surface: clear of the steps of its own voxels.
 constexpr double kOcclusionStart = 2;
@@ -38,7 +39,7 @@ Vec3d fromOpenVdb(const Vector& v) {
   return Vec3d(v[0], v[1], v[2]);
 }
 
-/// Without components that only rounding has left: a ray along an axis stays on it.
+/// Sets components to 0 that are rounding errors: a ray along an axis stays on it.
 Vec3d cleaned(Vec3d direction) {
   constexpr double kNothing = 1e-12;
   for (double& component : direction)
@@ -80,8 +81,8 @@ double longestSide(const std::vector<openvdb::CoordBBox>& boxes) {
   return all.extents().asVec3d()[static_cast<int>(all.maxExtent())];
 }
 
-/// A normal that looks at the viewer: of the side of an open surface that is seen. A smooth normal
-/// may lean away a little where the surface turns from sight.
+/// Turns a normal to the side of an open surface that the viewer sees. Near a silhouette a smooth
+/// normal may point away from the viewer a little.
 Vec3d facing(const Vec3d& normal, const Vec3d& face, const Vec3d& direction) {
   const double away = normal.dot(direction);
   constexpr double kLeaning = 0.2;

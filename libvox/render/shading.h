@@ -16,16 +16,17 @@ namespace vox {
 /// Linear red, green and blue.
 using Light = Eigen::Vector3d;
 
-/// Colours of points on a surface in sight of a camera: diffuse reflection of a lamp above the left
-/// shoulder, a weak one from the right, and of a bright sky dimmed where the surface itself is in
-/// its way. Not thread-safe; make one per task.
+/// Colours of points on a surface that a camera sees. They reflect, diffusely, a lamp above the
+/// left shoulder, a weak lamp from the right, and a bright sky where the surface does not hide it.
+/// Not thread-safe; make one per task.
 class Shader {
  public:
   Shader(const VisibleGrids& visible, const RayCaster& surface, const ViewAxes& axes,
          const ShadingOptions& options);
 
-  /// Light reflected along a line of sight; nothing where it misses the surface.
-  /// @param sample, samples  which of so many at one pixel: they share the occlusion rays
+  /// Light reflected along a line of sight; empty if it misses the surface.
+  /// @param sample   number of the sample at its pixel, 0 .. samples - 1
+  /// @param samples  number of samples at a pixel: they share the occlusion rays
   std::optional<Light> look(const Sight& sight, int sample, int samples);
 
  private:
@@ -35,7 +36,7 @@ class Shader {
   Vec3d normalAt(const RayHit& hit, const Vec3d& direction);
   std::optional<Vec3d> storedNormal(const openvdb::Coord& voxel);
   Light colorAt(const openvdb::Coord& voxel);
-  /// The part of the sky that is not hidden, 0 .. 1.
+  /// Part of the sky that the surface does not hide, 0 .. 1.
   double skyAt(const IndexRay& ray, const RayHit& hit, const Vec3d& normal, int sample,
                int samples);
 

@@ -31,7 +31,7 @@ bool isShowable(GridBase& grid) {
   return grid.isType<openvdb::MaskGrid>() || grid.apply<ScalarGrids>([](const auto&) {});
 }
 
-/// Lower is better.
+/// Rank of a grid that could be shown; lower is better.
 std::size_t preference(const GridBase& grid) {
   constexpr std::array<std::string_view, 3> kNames = {"mask", "density", "surface"};
   const auto known = std::find(kNames.begin(), kNames.end(), grid.getName());
@@ -117,7 +117,7 @@ openvdb::FloatGrid::ConstPtr asFloats(const GridBase::Ptr& grid) {
   return std::make_shared<openvdb::FloatGrid>(*openvdb::gridPtrCast<openvdb::DoubleGrid>(grid));
 }
 
-/// Of leaves, and of active tiles.
+/// Boxes of leaves and active tiles.
 template <class TreeT>
 std::vector<openvdb::CoordBBox> boxesOf(const TreeT& tree) {
   std::vector<openvdb::CoordBBox> boxes;
@@ -154,7 +154,7 @@ void requireInRange(const std::vector<openvdb::CoordBBox>& boxes, const std::str
         throw LimitError("grid " + name + " has voxels beyond 2^30 of its origin");
 }
 
-/// The grid of vectors of one of two names, if it lies where the grid that is shown does.
+/// The grid of vectors with one of two names, if it has the transform of the grid that is shown.
 openvdb::Vec3SGrid::ConstPtr vectorsNamed(std::span<const GridBase::Ptr> grids,
                                           std::string_view name, std::string_view otherName,
                                           const GridBase& shown) {

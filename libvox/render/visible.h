@@ -8,13 +8,13 @@
 
 namespace vox {
 
-/// What there is to see in the grids of a file.
+/// The visible part of the grids of a file.
 struct VisibleGrids {
-  openvdb::MaskTree::ConstPtr voxels;          ///< solid ones; or
-  openvdb::FloatGrid::ConstPtr levelSet;       ///< a surface within voxels, which is nothing then
-  openvdb::Vec3SGrid::ConstPtr normals;        ///< world space; nothing if there are none
-  openvdb::Vec3SGrid::ConstPtr colors;         ///< linear, 0 .. 1; nothing if there are none
-  openvdb::math::Transform::ConstPtr toWorld;  ///< of what is shown; linear
+  openvdb::MaskTree::ConstPtr voxels;          ///< solid voxels; null if there is a level set
+  openvdb::FloatGrid::ConstPtr levelSet;       ///< null if there are voxels
+  openvdb::Vec3SGrid::ConstPtr normals;        ///< world space; null if there are none
+  openvdb::Vec3SGrid::ConstPtr colors;         ///< linear, 0 .. 1; null if there are none
+  openvdb::math::Transform::ConstPtr toWorld;  ///< of the grid that is shown; linear
   std::vector<openvdb::CoordBBox> boxes;  ///< of the voxels that are shown, or near the surface
 };
 

@@ -8,11 +8,11 @@
 
 namespace vox {
 
-double densityValue(const VolumeOptions& options, double voxelSize) {
+double densityValue(std::optional<double> gain, Target target, double voxelSize) {
   constexpr double kDepthOfVoxel = 6;
-  constexpr double kMost = 60000;  // half floats hold a little more
-  if (options.gain) return *options.gain;
-  if (options.target == Target::kHoudini) return 1;
+  constexpr double kMost = 60000;  // what half floats hold
+  if (gain) return *gain;
+  if (target == Target::kHoudini) return 1;
   return std::clamp(kDepthOfVoxel / voxelSize, 1.0, kMost);
 }
 

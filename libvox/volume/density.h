@@ -4,6 +4,7 @@
 #include "libvox/options/volume_options.h"
 
 #include <memory>
+#include <optional>
 
 namespace vox {
 
@@ -15,7 +16,7 @@ inline constexpr const char* kGainMetadata = "vox_gain";
 /// this value a shell one voxel thick is opaque (exp(-6) of the light passes). Blender ignores
 /// voxels with densities near 0, so the value is at least 1.
 /// @param voxelSize  world units
-double densityValue(const VolumeOptions& options, double voxelSize);
+double densityValue(std::optional<double> gain, Target target, double voxelSize);
 
 /// Fog volume `density`: `value` at the active voxels and tiles of the mask, background 0.
 std::shared_ptr<openvdb::FloatGrid> densityGrid(const openvdb::MaskTree& mask, float value = 1);

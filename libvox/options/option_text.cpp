@@ -1,0 +1,173 @@
+// The options of a conversion as one line of text. Writing and reading share one list of fields.
+
+#include "libvox/options/option_text.h"
+
+#include "libvox/core/error.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <system_error>
+
+namespace vox {
+namespace {
+
+constexpr std::string_view kSeparating = "-separating";
+
+/// Calls visit(key, field) for each option, in the order of the text; names of an enumeration
+/// follow the field.
+template <class Options, class Visit>
+void forEachField(Options& options, Visit&& visit) {
+  visit("voxel-size", options.voxelSize);
+  visit("dim", options.dim);
+  visit("boundary", options.smoothing.boundary, kBoundaryRuleNames);
+  visit("interpolate", options.smoothing.interpolate, kInterpolateNames);
+  visit("interpolated-vertices", options.smoothing.interpolatedVertices);
+  visit("weld", options.weldTolerance);
+  visit("texture", options.texture);
+  visit("fill", options.volume.fill, kFillNames);
+  visit("gain", options.volume.gain);
+  visit("open-mesh", options.volume.openMesh, kOpenMeshNames);
+  visit("band", options.volume.band);
+  visit("tolerance", options.volume.tolerance);
+  visit("half", options.volume.half);
+  visit("target", options.volume.target, kTargetNames);
+  visit("up", options.volume.up, kUpAxisNames);
+  visit("until", options.until);
+  visit("voxelize", options.voxelize, kVoxelizeNames);
+}
+
+class Writer {
+ public:
+  Writer() { text_.precision(std::numeric_limits<double>::max_digits10); }
+
+  template <class T, class... Names>
+  void operator()(const char* key, const std::optional<T>& value, const Names&... names) {
+    if (value) write(key, *value, names...);
+  }
+
+  std::string text() const { return text_.str(); }
+
+ private:
+  std::ostream& begin(const char* key) { return text_ << (text_.tellp() > 0 ? " " : "") << key; }
+  template <class T>
+  void write(const char* key, const T& value) {
+    begin(key) << '=' << value;
+  }
+  void write(const char* key, bool value) {
+    if (value) begin(key);
+  }
+  void write(const char* key, const std::vector<Index>& vertices) { write(key, vertices.size()); }
+  void write(const char* key, const TextureSpec& texture) { write(key, textureText(texture)); }
+  void write(const char* key, const StopRule& rule) { write(key, stopRuleName(rule)); }
+  template <class Enum, std::size_t N>
+  void write(const char* key, Enum value, const NameTable<Enum, N>& names) {
+    write(key, nameIn(names, value));
+  }
+
+  std::ostringstream text_;
+};
+
+template <class Number>
+std::optional<Number> numberIn(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if constexpr (std::is_floating_point_v<Number>)
+    if (!std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+/// Reads one word into the field that has its key.
+class Reader {
+ public:
+  Reader(std::string_view word, RecordedOptions& recorded)
+      : key_(word.substr(0, word.find('='))), recorded_(recorded) {
+    if (key_.size() < word.size()) value_ = word.substr(key_.size() + 1);
+  }
+
+  /// False: no field has the key, or the field cannot have the value.
+  bool done() const { return done_; }
+
+  template <class T, class... Names>
+  void operator()(const char* key, std::optional<T>& field, const Names&... names) {
+    if (key_ == key) done_ = read(field, names...);
+  }
+
+ private:
+  template <class T>
+  static bool take(const std::optional<T>& value, std::optional<T>& field) {
+    if (value) field = value;
+    return value.has_value();
+  }
+
+  template <class Number>
+  bool read(std::optional<Number>& field) const {
+    return value_ && take(numberIn<Number>(*value_), field);
+  }
+  bool read(std::optional<bool>& field) const {
+    field = true;
+    return !value_;
+  }
+  bool read(std::optional<std::vector<Index>>&) const {
+    return value_ && take(numberIn<std::uint64_t>(*value_), recorded_.interpolatedVertices);
+  }
+  bool read(std::optional<StopRule>& field) const {
+    return value_ && take(stopRuleNamed(*value_), field);
+  }
+  bool read(std::optional<TextureSpec>& field) const {
+    if (!value_) return false;
+    try {
+      field = parseTexture(*value_);
+      return true;
+    } catch (const UsageError&) {
+      return false;
+    }
+  }
+  template <class Enum, std::size_t N>
+  bool read(std::optional<Enum>& field, const NameTable<Enum, N>& names) const {
+    return value_ && take(namedIn(names, *value_), field);
+  }
+
+  std::string_view key_;
+  std::optional<std::string_view> value_;
+  RecordedOptions& recorded_;
+  bool done_ = false;
+};
+
+}  // namespace
+
+std::string optionText(const ConvertOptions& options) {
+  Writer writer;
+  forEachField(options, writer);
+  return writer.text();
+}
+
+RecordedOptions parseOptionText(std::string_view text) {
+  RecordedOptions recorded;
+  std::istringstream words{std::string(text)};
+  for (std::string word; words >> word;) {
+    Reader reader(word, recorded);
+    forEachField(recorded.options, reader);
+    if (!reader.done())
+      throw InputError(std::string(kOptionsMetadata) + " has '" + word +
+                       "', which is no option of vox or no value of that option");
+  }
+  return recorded;
+}
+
+std::string guaranteeText(Separation separation) {
+  return nameIn(kSeparationNames, separation) + std::string(kSeparating);
+}
+
+Separation parseGuarantee(std::string_view text) {
+  if (text.ends_with(kSeparating))
+    if (const auto known =
+            namedIn(kSeparationNames, text.substr(0, text.size() - kSeparating.size())))
+      return *known;
+  throw InputError(std::string(kGuaranteeMetadata) + " is '" + std::string(text) +
+                   "', which is no guarantee that vox gives");
+}
+
+}  // namespace vox

@@ -1,0 +1,137 @@
+// Command line > object > scene > default.
+
+#include "libvox/pipeline/request.h"
+
+#include "libvox/core/error.h"
+#include "libvox/io/write_vdb.h"
+#include "libvox/options/option_text.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace vox {
+namespace {
+
+/// The first value that is set, else the default.
+template <class T>
+T firstSet(std::initializer_list<std::optional<T>> values, T byDefault = {}) {
+  for (const std::optional<T>& value : values)
+    if (value) return *value;
+  return byDefault;
+}
+
+ObjectPreparation preparationOf(const Scene& scene, const SceneObject& object,
+                                const PreparationOptions& options) {
+  const SmoothingOptions& first = options.smoothing;
+  const SmoothingOptions& second = object.smoothing;
+  ObjectPreparation result;
+  result.boundary = firstSet({first.boundary, second.boundary}, result.boundary);
+  // `interpolate` and `interpolatedVertices` are one choice: who sets one of them decides both.
+  const bool byOptions = first.interpolate || first.interpolatedVertices;
+  const SmoothingOptions& chosen = byOptions ? first : second;
+  result.interpolate = chosen.interpolate.value_or(result.interpolate);
+  if (chosen.interpolatedVertices) result.interpolatedVertices = *chosen.interpolatedVertices;
+  result.weldTolerance = firstSet({options.weldTolerance, scene.weldTolerance});
+  result.strict = firstSet({options.strict, scene.strict});
+  return result;
+}
+
+VolumeSettings volumeOf(const VolumeOptions& first, const VolumeOptions& second) {
+  VolumeSettings all;
+  const auto choose = [&](auto VolumeOptions::*option, auto& setting) {
+    setting = firstSet({first.*option, second.*option}, setting);
+  };
+  choose(&VolumeOptions::fill, all.fill);
+  choose(&VolumeOptions::openMesh, all.openMesh);
+  choose(&VolumeOptions::band, all.band);
+  choose(&VolumeOptions::tolerance, all.tolerance);
+  choose(&VolumeOptions::half, all.half);
+  choose(&VolumeOptions::target, all.target);
+  all.gain = first.gain ? first.gain : second.gain;
+  all.compression = first.compression ? first.compression : second.compression;
+  requireValid(all);
+  if (all.compression) requireCompression(*all.compression);
+  return all;
+}
+
+std::vector<GridKind> gridsOf(const Scene& scene, const ConvertOptions& options) {
+  std::vector<GridKind> kinds = firstSet({options.grids, scene.grids}, {GridKind::kDensity});
+  const bool colored = std::find(kinds.begin(), kinds.end(), GridKind::kColor) != kinds.end();
+  if (!options.texture || colored) return kinds;
+  if (options.grids) throw UsageError("--texture needs color among --grids");
+  kinds.push_back(GridKind::kColor);
+  return kinds;
+}
+
+ConversionWay wayOf(const Scene& scene, const SceneObject& object, const ConvertOptions& options) {
+  const StopRule until = firstSet({options.until, object.until, scene.until});
+  const Voxelize voxelize =
+      firstSet({options.voxelize, object.voxelize, scene.voxelize}, Voxelize::kAuto);
+  const std::string fault = faultOf(until, voxelize, options.separation);
+  if (!fault.empty()) throw UsageError(object.name + ": " + fault);
+  return chooseWay(until, voxelize, options.separation);
+}
+
+/// The text of the options; the resolution is there even if the scene or the default set it.
+std::string textOf(ConvertOptions options, const Resolution& resolution) {
+  options.voxelSize = resolution.voxelSize;
+  options.dim = resolution.dim.value_or(kDefaultDim);
+  if (options.voxelSize) options.dim.reset();
+  return optionText(options);
+}
+
+}  // namespace
+
+Resolution resolutionOf(const Scene& scene, const ConvertOptions& options) {
+  const Resolution first{options.voxelSize, options.dim};
+  return first.isSet() ? first : Resolution{scene.voxelSize, scene.dim};
+}
+
+GridTransform transformFor(const Resolution& resolution, const Box& box) {
+  if (resolution.voxelSize) return transformForVoxelSize(*resolution.voxelSize);
+  return transformForDim(box, resolution.dim.value_or(kDefaultDim));
+}
+
+std::vector<ObjectPreparation> preparationsOf(const Scene& scene,
+                                              const PreparationOptions& options) {
+  std::vector<ObjectPreparation> all;
+  for (const SceneObject& object : scene.objects)
+    all.push_back(preparationOf(scene, object, options));
+  return all;
+}
+
+void requirePreparable(const Scene& scene, const PreparationOptions& options) {
+  if (options.smoothing.interpolatedVertices && scene.objects.size() > 1)
+    throw UsageError("--interpolate-vertices needs a scene of one object, not " +
+                     std::to_string(scene.objects.size()) +
+                     "; use interpolate_vertices in the scene");
+  for (const SceneObject& object : scene.objects) {
+    const ObjectPreparation prepared = preparationOf(scene, object, options);
+    const bool ofBoundary = prepared.interpolate == Interpolate::kBoundary ||
+                            prepared.interpolate == Interpolate::kBoth;
+    if (ofBoundary && prepared.boundary == BoundaryRule::kFree)
+      throw UsageError(object.name +
+                       ": a free boundary cannot be interpolated; use --boundary extend, or "
+                       "--interpolate none or interior");
+  }
+}
+
+Request resolve(const Scene& scene, const ConvertOptions& options) {
+  Request request{Request::Resolved()};
+  request.resolution = resolutionOf(scene, options);
+  request.separation = options.separation;
+  request.surface = options.surface;
+  request.run = options.run;
+  for (const SceneObject& object : scene.objects)
+    request.objects.push_back({preparationOf(scene, object, options), wayOf(scene, object, options),
+                               options.texture ? options.texture : object.texture});
+  request.volume = volumeOf(options.volume, scene.volume);
+  const auto& up = options.volume.up ? options.volume.up : scene.volume.up;
+  request.turn = turnFor(up, request.volume.target);
+  request.grids = gridsOf(scene, options);
+  request.optionText = textOf(options, request.resolution);
+  requirePreparable(scene, options);
+  return request;
+}
+
+}  // namespace vox

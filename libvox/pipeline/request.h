@@ -1,0 +1,82 @@
+#pragma once
+
+#include "libvox/grid/transform.h"
+#include "libvox/io/scene_file.h"
+#include "libvox/options/convert_options.h"
+#include "libvox/pipeline/choose.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vox {
+
+// Where several places set a value, the command line (the options) wins over the object, the object
+// over the scene, the scene over the default. This is the only file that decides it.
+
+/// How fine the grid is: voxels of a size in world units, or `dim` of them along the longest side.
+struct Resolution {
+  std::optional<double> voxelSize;  ///< wins over dim
+  std::optional<int> dim;           ///< default: kDefaultDim
+
+  bool isSet() const { return voxelSize || dim; }
+};
+Resolution resolutionOf(const Scene& scene, const ConvertOptions& options);
+
+/// Transform of that resolution for an input within a box, without a turn.
+/// @throws UsageError, InputError, LimitError  as transformForDim and transformForVoxelSize
+GridTransform transformFor(const Resolution& resolution, const Box& box);
+
+/// How an object is made ready to subdivide.
+struct ObjectPreparation {
+  BoundaryRule boundary = BoundaryRule::kExtend;
+  Interpolate interpolate = Interpolate::kNothing;
+  std::vector<Index> interpolatedVertices = {};  ///< interior ones, besides `interpolate`
+  double weldTolerance = 0;                      ///< world units
+  bool strict = false;                           ///< a mesh that needs repair is refused
+
+  /// True if the surface is to pass through some vertex.
+  bool interpolates() const {
+    return interpolate != Interpolate::kNothing || !interpolatedVertices.empty();
+  }
+};
+
+/// One for each object of the scene.
+std::vector<ObjectPreparation> preparationsOf(const Scene& scene,
+                                              const PreparationOptions& options);
+
+/// @throws UsageError  the boundary of an object is to be interpolated but free; the options name
+///   vertices to interpolate, but the scene has several objects
+void requirePreparable(const Scene& scene, const PreparationOptions& options);
+
+/// What to do with an object.
+struct ObjectRequest {
+  ObjectPreparation preparation;
+  ConversionWay way;
+  std::optional<TextureSpec> texture;
+};
+
+/// What to do with a scene: every option resolved, and checked. Made by resolve().
+struct Request {
+  Resolution resolution;
+  Turn turn;
+  std::vector<GridKind> grids;  ///< in the order asked for
+  VolumeSettings volume;
+  Separation separation;
+  SurfaceOptions surface;
+  RunOptions run;
+  std::string optionText;              ///< the options that were set, as metadata `vox_options`
+  std::vector<ObjectRequest> objects;  ///< one for each object of the scene
+
+ private:
+  struct Resolved {};
+  explicit Request(Resolved) {}  // not from {}: convert(scene, {}) means the default options
+  friend Request resolve(const Scene& scene, const ConvertOptions& options);
+};
+
+/// @throws UsageError  a stop rule, or its combination with the way to voxelize and the separation,
+///   is impossible (choose.h); a number of the volume options is out of range, or OpenVDB lacks the
+///   compression; a texture is asked for without the color grid; as requirePreparable
+Request resolve(const Scene& scene, const ConvertOptions& options);
+
+}  // namespace vox
