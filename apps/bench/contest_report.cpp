@@ -1,6 +1,7 @@
 #include "apps/bench/contest_report.h"
 
 #include "apps/bench/report.h"
+#include "apps/bench/statistics.h"
 
 #include <functional>
 #include <iomanip>
@@ -8,8 +9,6 @@
 
 namespace vox::bench {
 namespace {
-
-constexpr double kMiB = 1024.0 * 1024;
 
 /// The number with three digits: 0.0361, 12.4, 1234.
 std::string text(double value) {

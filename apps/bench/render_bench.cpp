@@ -6,6 +6,7 @@
 #include "apps/bench/inputs.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/render/render.h"
+#include "libvox/render/visible.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,5 +1,7 @@
 #include "apps/bench/report.h"
 
+#include "apps/bench/statistics.h"
+
 #include <fstream>
 #include <iomanip>
 #include <optional>
@@ -12,7 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMiB = 1024.0 * 1024;
 constexpr int kNameWidth = 30;
 constexpr int kNumberWidth = 10;
 

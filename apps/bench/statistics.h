@@ -8,6 +8,8 @@
 
 namespace vox::bench {
 
+inline constexpr double kMiB = 1024.0 * 1024;
+
 /// Median of at least one value: the middle one, or the mean of the two in the middle.
 double median(std::vector<double> values);
 

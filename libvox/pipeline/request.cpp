@@ -117,11 +117,8 @@ void requirePreparable(const Scene& scene, const PreparationOptions& options) {
 }
 
 Request resolve(const Scene& scene, const ConvertOptions& options) {
-  Request request{Request::Resolved()};
+  Request request(options);
   request.resolution = resolutionOf(scene, options);
-  request.separation = options.separation;
-  request.surface = options.surface;
-  request.run = options.run;
   for (const SceneObject& object : scene.objects)
     request.objects.push_back({preparationOf(scene, object, options), wayOf(scene, object, options),
                                options.texture ? options.texture : object.texture});

@@ -59,7 +59,7 @@ struct ObjectRequest {
 /// What to do with a scene: every option resolved, and checked. Made by resolve().
 struct Request {
   Resolution resolution;
-  Turn turn;
+  Turn turn = Turn::kNoTurn;
   std::vector<GridKind> grids;  ///< in the order asked for
   VolumeSettings volume;
   Separation separation;
@@ -69,8 +69,9 @@ struct Request {
   std::vector<ObjectRequest> objects;  ///< one for each object of the scene
 
  private:
-  struct Resolved {};
-  explicit Request(Resolved) {}  // not from {}: convert(scene, {}) means the default options
+  /// Takes the options that neither scene nor object can set.
+  explicit Request(const ConvertOptions& options)
+      : separation(options.separation), surface(options.surface), run(options.run) {}
   friend Request resolve(const Scene& scene, const ConvertOptions& options);
 };
 
