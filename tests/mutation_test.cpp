@@ -117,7 +117,10 @@ TEST_CASE("a mesh with one invalid index or coordinate is refused", "[pipeline][
     else
       mesh.points[random() % mesh.pointCount()][static_cast<int>(random() % 3)] =
           seed % 4 == 1 ? infinite : nan;
-    CHECK_THROWS_AS(convert(scene, anyOptions(random, mesh.pointCount())), MeshError);
+    ConvertOptions options = anyOptions(random, mesh.pointCount());
+    // An error of its own for two objects, found before any mesh is looked at.
+    if (scene.objects.size() > 1) options.smoothing.interpolatedVertices.reset();
+    CHECK_THROWS_AS(convert(scene, options), MeshError);
   }
 }
 
