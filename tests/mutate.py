@@ -157,6 +157,8 @@ def told(counts):
 
 
 def main():
+    if len(sys.argv) < 4:
+        sys.exit(__doc__)
     vox, folder, count = sys.argv[1:4]
     first = int(sys.argv[4]) if len(sys.argv) > 4 else 0
     meshes = [read_obj(file) for file in sorted(Path(folder).glob("*.obj"))]

@@ -195,7 +195,9 @@ Action addConvert(CLI::App& app) {
            "such as mesh.####.obj, become a sequence out.####.vdb with one voxel size")
       .required()
       .type("");
-  command.add("-o,--output", options->output, "OpenVDB file to write; - for stdout")
+  command
+      .add("-o,--output", options->output,
+           "OpenVDB file to write; - for stdout. Required without --dry-run")
       .type("OUT.vdb")
       .group("Output");
   addResolutionOptions(command, options->conversion.resolution);

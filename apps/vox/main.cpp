@@ -90,8 +90,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   app.footer(
-      "Exit codes: 0 success, 1 diff or check says no, 2 usage, 3 bad input, 4 cannot be\n"
-      "done within limits, 5 output cannot be written, 70 internal error, 130 interrupted.");
+      "Exit codes: 0 success, 1 diff finds a difference, or check or convert --verify a fault,\n"
+      "2 usage, 3 bad input, 4 cannot be done within limits, 5 output cannot be written,\n"
+      "70 internal error, 130 interrupted.");
   const std::vector<std::pair<const char*, Action>> actions = {
       {"convert", addConvert(app)}, {"subdivide", addSubdivide(app)}, {"info", addInfo(app)},
       {"diff", addDiff(app)},       {"check", addCheck(app)},         {"render", addRender(app)}};

@@ -112,8 +112,9 @@ void addSmoothingOptions(const Command& command, SmoothingArguments& arguments) 
       .group("Smoothing");
   command
       .add("--interpolate-vertices", arguments.vertexFile,
-           "Text file with the numbers of further interior vertices that the surface passes "
-           "through, counted from 0, separated by blanks; # starts a comment")
+           "Text file with the numbers of interior vertices that the surface passes through, in "
+           "addition to those of --interpolate, counted from 0, separated by blanks; # starts a "
+           "comment")
       .type("FILE")
       .group("Smoothing");
 }
@@ -131,11 +132,13 @@ void addVoxelizationOptions(const Command& command, VoxelizationArguments& argum
   command
       .addRepeatable(
           "--until", arguments.until,
-          "How far to subdivide: down to the size of a voxel (voxel); or until the polygons keep a "
-          "limit, and then scan-convert them. Limits: levels=K steps (0: the polygons of the "
-          "input), faces of at most diameter=D voxels, at most angle=DEG degrees between adjacent "
-          "faces, at most flatness=D voxels from the smooth surface. Of several limits, the first "
-          "to be met counts (default: the scene's, or voxel)")
+          "How far to subdivide: down to the size of a voxel (voxel), or until the polygons keep a "
+          "limit; then all voxels that the polygons meet are marked. Limits: levels=K steps (0: "
+          "the "
+          "polygons of the input), faces of at most diameter=D voxels, at most angle=DEG degrees "
+          "between adjacent faces, at most flatness=D voxels from the smooth surface. Of several "
+          "limits, with commas (angle=5,diameter=8), the first to be met counts (default: the "
+          "scene's, or voxel)")
       .type("voxel|levels=K|diameter=D|angle=DEG|flatness=D")
       .group("Voxels");
   command
