@@ -134,10 +134,10 @@ void addVoxelizationOptions(const Command& command, VoxelizationArguments& argum
           "--until", arguments.until,
           "How far to subdivide: down to the size of a voxel (voxel), or until the polygons keep a "
           "limit; then all voxels that the polygons meet are marked. Limits: levels=K steps (0: "
+          "the polygons of the input), faces of at most diameter=D voxels, at most angle=DEG "
+          "degrees between adjacent faces, at most flatness=D voxels from the smooth surface. Of "
+          "several limits, with commas (angle=5,diameter=8), the first to be met counts (default: "
           "the "
-          "polygons of the input), faces of at most diameter=D voxels, at most angle=DEG degrees "
-          "between adjacent faces, at most flatness=D voxels from the smooth surface. Of several "
-          "limits, with commas (angle=5,diameter=8), the first to be met counts (default: the "
           "scene's, or voxel)")
       .type("voxel|levels=K|diameter=D|angle=DEG|flatness=D")
       .group("Voxels");
