@@ -474,15 +474,27 @@ expect 2 "unknown fault 'holes'" check torus.vdb --ignore holes
 expect 3 "has no grid 'fog'" check torus.vdb --grid fog
 expect 3 'nowhere.vdb: no such file' check nowhere.vdb
 expect 4 'needs about' check torus.vdb --mesh "$scenes/torus.toml" --max-memory 1M
+# Limits of the command line mean polygons, even if the scene names vertices.
+printf '[convert]\ndim = 8\nvoxelize = "vertex"\n[[object]]\n%s\n' "$cube" >vertex.toml
+expect 0 '' convert vertex.toml -o vertex.vdb --quiet
+expect 0 '' check vertex.vdb --mesh vertex.toml --until levels=1
+expect 3 'error: nowhere.txt: no such file' check vertex.vdb --mesh vertex.toml --interpolate-vertices nowhere.txt
 # Damaged metadata in a file whose UUID does not show it.
-expect 0 '' convert "$scenes/torus.toml" -o damaged.vdb --dim 20 --weld 1e-9
-python3 - damaged.vdb <<'PY'
+damage() {
+  python3 - "$@" <<'PY'
 import sys
-content = bytearray(open(sys.argv[1], "rb").read().replace(b"weld=1.0", b"weld=abc"))
+file, old, new = sys.argv[1:]
+content = bytearray(open(file, "rb").read().replace(old.encode(), new.encode()))
 content[21 + 14] = ord("4")  # the version of the UUID: no hash of ours
-open(sys.argv[1], "wb").write(content)
+open(file, "wb").write(content)
 PY
+}
+expect 0 '' convert "$scenes/torus.toml" -o damaged.vdb --dim 20 --weld 1e-9
+damage damaged.vdb weld=1.0 weld=abc
 expect 3 "damaged.vdb: vox_options has 'weld=abc" check damaged.vdb --mesh "$scenes/torus.toml"
+expect 0 '' convert "$scenes/torus.toml" -o impossible.vdb --dim 20 --band 2.5
+damage impossible.vdb band=2.5 band=0.5
+expect 3 'impossible.vdb: vox_options is impossible: the band must' check impossible.vdb --mesh "$scenes/torus.toml"
 expect 0 'active voxels' convert "$scenes/gallery.toml" -o verified.vdb --dim 100 --verify
 
 # What needs care at the edges.

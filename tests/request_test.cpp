@@ -181,8 +181,9 @@ TEST_CASE("the text of options has its words in a fixed order", "[request][golde
 
 TEST_CASE("text that vox has not written is refused, and quoted", "[request]") {
   for (const std::string word :
-       {"weld=abc", "weld=", "weld", "weld=nan", "weld=1x", "dim=1.5", "boundary=loose", "half=1",
-        "until=later", "texture=fog", "interpolated-vertices=-1", "colour=red", "=", "x"}) {
+       {"weld=abc", "weld=", "weld", "weld=nan", "weld=1x", "weld=-1", "dim=1.5", "dim=-3",
+        "boundary=loose", "half=1", "until=later", "texture=fog", "interpolated-vertices=-1",
+        "colour=red", "=", "x"}) {
     CAPTURE(word);
     CHECK_THROWS_AS(parseOptionText("dim=64 " + word), InputError);
     CHECK_THROWS_WITH(parseOptionText("dim=64 " + word), Catch::Contains("'" + word + "'"));

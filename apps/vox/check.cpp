@@ -94,14 +94,38 @@ std::string metadataOf(const openvdb::GridBase& grid, const std::string& key) {
   return value ? value->str() : std::string();
 }
 
+/// Refuses options that no conversion accepts.
+/// @throws InputError
+void requirePossible(const ConvertOptions& recorded) {
+  Scene plain;
+  plain.objects.push_back({.name = "any object", .mesh = {}});
+  try {
+    resolve(plain, recorded);
+  } catch (const UsageError& wrong) {
+    throw InputError(std::string(kOptionsMetadata) + " is impossible: " + wrong.what());
+  }
+}
+
+/// The options that the metadata of a grid records.
+/// @throws InputError  the metadata is damaged, or of another program; the message names the file
+RecordedOptions recordedOptions(const openvdb::GridBase& grid, const std::string& file) {
+  try {
+    RecordedOptions recorded = parseOptionText(metadataOf(grid, kOptionsMetadata));
+    const std::string guarantee = metadataOf(grid, kGuaranteeMetadata);
+    if (!guarantee.empty()) recorded.options.separation = parseGuarantee(guarantee);
+    requirePossible(recorded.options);
+    return recorded;
+  } catch (const InputError& wrong) {
+    throw InputError(file + ": " + wrong.what());
+  }
+}
+
 /// The options that the file was made with; those of the command line win.
-/// @throws InputError  the metadata is damaged, or of another program
+/// @throws InputError  as recordedOptions
 /// @throws UsageError  the file was made with a list of vertices, which it does not hold
 ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const CheckArguments& options) {
-  RecordedOptions recorded = parseOptionText(metadataOf(grid, kOptionsMetadata));
+  RecordedOptions recorded = recordedOptions(grid, options.file);
   ConvertOptions& made = recorded.options;
-  const std::string guarantee = metadataOf(grid, kGuaranteeMetadata);
-  if (!guarantee.empty()) made.separation = parseGuarantee(guarantee);
   const SmoothingOptions given = parseSmoothing(options.smoothing);
   if (recorded.interpolatedVertices && !given.interpolatedVertices)
     throw UsageError(options.file +
@@ -112,26 +136,18 @@ ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const CheckArguments
   if (options.weldTolerance) made.weldTolerance = options.weldTolerance;
   if (!options.until.empty()) {
     made.until = parseUntil({{options.until}, {}, {}});
-    if (!made.until->untilVoxel()) made.voxelize.reset();  // limits leave no choice
+    // Limits mean polygons, even if file or scene name vertices.
+    if (!made.until->untilVoxel()) made.voxelize = Voxelize::kAuto;
   }
   made.run = options.run;
   return made;
-}
-
-/// The same, with the name of the file in messages.
-ConvertOptions optionsOfNamedFile(const openvdb::GridBase& grid, const CheckArguments& options) {
-  try {
-    return optionsOfFile(grid, options);
-  } catch (const InputError& wrong) {
-    throw InputError(options.file + ": " + wrong.what());
-  }
 }
 
 void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
                const CheckArguments& options, Check& check) {
   if (!grid.transform().isLinear() || !grid.hasUniformVoxels())
     throw InputError(options.file + ": a mesh can be held against voxels that are cubes only");
-  const ConvertOptions made = optionsOfNamedFile(grid, options);
+  const ConvertOptions made = optionsOfFile(grid, options);
   const Scene scene = readScene(options.mesh);
   check.objects = checkObjects(voxels, scene, resolve(scene, made), grid.voxelSize().x());
   for (const ObjectCheck& object : check.objects)

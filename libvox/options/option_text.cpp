@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 #include <system_error>
+#include <type_traits>
 
 namespace vox {
 namespace {
@@ -69,6 +70,7 @@ class Writer {
   std::ostringstream text_;
 };
 
+/// A number of 0 or more: no option has a negative one.
 template <class Number>
 std::optional<Number> numberIn(std::string_view text) {
   Number number{};
@@ -76,6 +78,8 @@ std::optional<Number> numberIn(std::string_view text) {
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   if constexpr (std::is_floating_point_v<Number>)
     if (!std::isfinite(number)) return std::nullopt;
+  if constexpr (std::is_signed_v<Number>)
+    if (number < 0) return std::nullopt;
   return number;
 }
 
