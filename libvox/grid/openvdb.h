@@ -6,10 +6,12 @@
 // their virtual functions again, all reading and writing of files among them, which takes longer
 // than the rest of most sources. These declarations say that they are in the library.
 //
-// Our own targets define VOX_COMPILED_TREES (cmake/Warnings.cmake). Without optimisation the
-// declarations would leave out small functions, too, which the library has only inlined. If the
-// linker misses a function of a tree or grid all the same, openvdb.cpp is the place to name it.
-#if defined(VOX_COMPILED_TREES) && defined(__OPTIMIZE__)
+// Our own targets define VOX_COMPILED_TREES (cmake/Warnings.cmake). A library that is built without
+// explicit instantiation does not hold them. Without optimisation the declarations would leave out
+// small functions, too, which the library has only inlined. If the linker misses a function of a
+// tree or grid all the same, openvdb.cpp is the place to name it.
+#if defined(VOX_COMPILED_TREES) && defined(OPENVDB_USE_EXPLICIT_INSTANTIATION) && \
+    defined(__OPTIMIZE__)
 namespace openvdb {
 OPENVDB_USE_VERSION_NAMESPACE
 namespace OPENVDB_VERSION_NAME {
