@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fails where a comment names a section that libvox/DESIGN.md does not have, and where DESIGN.md names a
-# file that is not there. Usage: design.sh SOURCE
+# Fails where a comment or libvox/DESIGN.md itself names a section that libvox/DESIGN.md does not have, and
+# where DESIGN.md names a file that is not there. Usage: design.sh SOURCE
 set -euo pipefail
 cd "$1"
 design=libvox/DESIGN.md
@@ -30,6 +30,12 @@ references() {
       }' | sort -u
 }
 
+# The same for sections that DESIGN.md names itself. "paper, section 4" is one of the paper.
+ownReferences() {
+  tr '\n' ' ' <"$design" | sed -E 's/paper, sections? [0-9.]+//g' |
+    grep -oE 'sections? [0-9]+((,|,? and) [0-9]+)*' | grep -oE '[0-9]+' | sort -un | sed "s|^|$design |"
+}
+
 wrong=0
 checked=0
 while read -r place section; do
@@ -37,7 +43,7 @@ while read -r place section; do
   grep -q "^## $section\. " "$design" && continue
   echo "$place names section $section, which $design does not have"
   wrong=1
-done < <(references)
+done < <(references; ownReferences)
 
 for path in $(grep -oE '`[a-z_]+/[a-z_0-9]+`' "$design" | tr -d '`' | sort -u); do
   compgen -G "$path.*" >/dev/null || compgen -G "libvox/$path.*" >/dev/null || {
