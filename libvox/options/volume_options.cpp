@@ -1,4 +1,4 @@
-// Options of volumes: combination, checks, and what follows from the target program.
+// Options of volumes: ranges of numbers, and names of grids.
 
 #include "libvox/options/volume_options.h"
 

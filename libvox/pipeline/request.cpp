@@ -26,7 +26,7 @@ ObjectPreparation preparationOf(const Scene& scene, const SceneObject& object,
   const SmoothingOptions& second = object.smoothing;
   ObjectPreparation result;
   result.boundary = firstSet({first.boundary, second.boundary}, result.boundary);
-  // `interpolate` and `interpolatedVertices` are one choice: who sets one of them decides both.
+  // `interpolate` and `interpolatedVertices` are one choice: options that set one replace both.
   const bool byOptions = first.interpolate || first.interpolatedVertices;
   const SmoothingOptions& chosen = byOptions ? first : second;
   result.interpolate = chosen.interpolate.value_or(result.interpolate);
