@@ -41,6 +41,7 @@ struct Conversion {
 Conversion convert(const Scene& scene, const ConvertOptions& options);
 
 /// The same with options that are resolved already.
+/// @param request  resolved for this scene
 Conversion convert(const Scene& scene, const Request& request);
 
 /// Box of all objects, world units. The `dim` voxels lie along its longest side.
@@ -52,6 +53,7 @@ Estimate estimate(const Scene& scene, const ConvertOptions& options,
                   std::vector<std::string>& warnings);
 
 /// The same with options that are resolved already.
+/// @param request  resolved for this scene
 Estimate estimate(const Scene& scene, const Request& request, std::vector<std::string>& warnings);
 
 /// Of each grid its name, and its bytes in memory.
