@@ -70,7 +70,7 @@ class VertexSamples : public ColoredSink {
 
 void sampleVertices(const SubdivisionLevel& base, std::span<const Vec3d> colors,
                     const MemoryBudget& budget, const Progress& progress, Writers& writers) {
-  // At least as many faces as meet at any vertex or edge: a submesh there needs all of them.
+  // At least as many faces as any vertex or face has around it: a submesh there needs them all.
   constexpr Index kLeast = 256;
   const Index largest = largestNeighbourhood(base.mesh);
   const Partition partition = coverGreedily(base.mesh, base.adjacency, std::max(kLeast, largest));
