@@ -145,9 +145,9 @@ ColoredLevel coloredLevel(const SubdivisionLevel& base, std::span<const Vec3d> c
 
 void samplePolygons(const ColoredLevel& colored, bool ofCorners, const Progress& progress,
                     Writers& writers) {
-  constexpr std::size_t kFacesPerTask = 64;
+  constexpr std::size_t kFaceGrain = 64;
   const PolygonMesh& mesh = colored.level.mesh;
-  parallelForRanges(mesh.faceCount(), kFacesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallelForRanges(mesh.faceCount(), kFaceGrain, [&](std::size_t begin, std::size_t end) {
     progress.check();
     std::vector<Vec3d> corners;
     std::vector<std::array<Index, 3>> triangles;
