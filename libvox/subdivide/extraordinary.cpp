@@ -81,9 +81,9 @@ VertexSplit ExtraordinaryFace::splitAt(std::span<const Vec3d> images, std::size_
 }
 
 void requireLevelInRange(int level) {
-  constexpr int kMostLevels = 64;
-  if (level > kMostLevels)
-    throw LimitError("the surface needs more than " + std::to_string(kMostLevels) +
+  constexpr int kDeepestLevel = 64;
+  if (level > kDeepestLevel)
+    throw LimitError("the surface needs more than " + std::to_string(kDeepestLevel) +
                      " subdivision levels; use larger voxels");
 }
 

@@ -84,8 +84,8 @@ double meanWidth(const Patch& patch) {
 
 std::optional<ThinPatch> thinPatch(const Patch& patch, int levels) {
   constexpr int kLeastLevels = 4;  // with fewer vertices it is not worth it
-  constexpr int kMostLevels = 30;
-  if (levels < kLeastLevels || levels > kMostLevels || patch.quadrants != kAllQuadrants)
+  constexpr int kDeepestRows = 30;
+  if (levels < kLeastLevels || levels > kDeepestRows || patch.quadrants != kAllQuadrants)
     return std::nullopt;
   ThinPatch thin{turnedForRows(patch), levels, {}};
   std::int64_t limit = (std::int64_t{1} << (2 * levels)) / kCostOfRows;
