@@ -9,6 +9,7 @@
 #include "tests/shapes.h"
 #include "tests/spline_torus.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -44,8 +45,7 @@ struct LimitCloud {
   std::vector<Vec3d> points;
   double spacing = 0;
 };
-LimitCloud limitCloud(const SubdivisionLevel& base, int levels) {
-  const SubdivisionLevel fine = subdivide(base, levels);
+LimitCloud limitCloud(const SubdivisionLevel& fine) {
   LimitCloud cloud;
   for (Index f = 0; f < fine.mesh.faceCount(); ++f) {
     const auto face = fine.mesh.face(f);
@@ -70,11 +70,18 @@ double distanceToCloud(const LimitCloud& cloud, const Vec3d& p) {
   return std::sqrt(least);
 }
 
-void requireMinima(const SubdivisionLevel& base) {
-  int levels = 2;
-  for (auto corners = base.mesh.cornerCount(); corners < 10000; corners *= 4) ++levels;
-  const LimitCloud cloud = limitCloud(base, levels);
+/// @param samples  about how many limit points to compare with
+void requireMinima(const SubdivisionLevel& base, Index samples) {
+  int levels = 1;
+  for (Index faces = base.mesh.cornerCount(); faces < samples; faces *= 4) ++levels;
+  const SubdivisionLevel fine = subdivide(base, levels);
+  const LimitCloud cloud = limitCloud(fine);
   const ClosestPoint truth(base, kDeep);
+  const ClosestPolygon polygons(fine.mesh);
+  double largest = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); i += 13)
+    largest = std::max(largest, truth.of(cloud.points[i]).distance);
+  CHECK(largest < 1e-6);
   double reach = 0;
   for (const Vec3d& p : base.mesh.points) reach = std::max(reach, p.norm());
   for (const Vec3d& p : randomPoints(40, 1.3 * reach)) {
@@ -85,7 +92,17 @@ void requireMinima(const SubdivisionLevel& base) {
     CHECK(foot.distance >= sampled - cloud.spacing);
     CHECK(distanceToCloud(cloud, foot.point) <= cloud.spacing);
     CHECK((p - foot.point).norm() == Approx(foot.distance));
+    const ClosestPolygon::Foot about = polygons.of(p);
+    CHECK(about.distance == Approx(foot.distance).margin(cloud.spacing));
+    if (std::min(foot.cosine, about.cosine) > 0.5 && foot.distance > cloud.spacing)
+      CHECK((foot.signedDistance < 0) == (about.signedDistance < 0));
   }
+}
+
+Vec3d pointOf(const Patch& patch, SplinePlace u, SplinePlace v) {
+  const auto& p = patch.points;
+  return v.value(u.value(p[0][0], p[1][0], p[2][0]), u.value(p[0][1], p[1][1], p[2][1]),
+                 u.value(p[0][2], p[1][2], p[2][2]));
 }
 
 PolygonMesh octahedron() {
@@ -124,11 +141,11 @@ double distanceToSpline(const std::vector<Vec3d>& loop, const Vec3d& p) {
 TEST_CASE("closest points are global minima over the limit surface", "[truth][property]") {
   for (const auto& shape : test::shapes()) {
     CAPTURE(shape.name);
-    requireMinima(baseLevel(test::scaled(shape.mesh, 5)));
+    requireMinima(baseLevel(test::scaled(shape.mesh, 5)), 10000);
   }
   for (const auto& shape : test::openShapes()) {
     CAPTURE(shape.name);
-    requireMinima(baseLevel(test::scaled(shape.mesh, 5)));
+    requireMinima(baseLevel(test::scaled(shape.mesh, 5)), 1500);
   }
 }
 
@@ -145,6 +162,45 @@ TEST_CASE("pieces meet: few levels and many agree", "[truth]") {
       if (b.cosine * b.distance > 0.01 && b.cosine > 0.99)
         CHECK((a.signedDistance < 0) == (b.signedDistance < 0));
     }
+  }
+}
+
+TEST_CASE("triangles around extraordinary faces have their corners on the limit surface",
+          "[truth][property]") {
+  std::vector<test::Shape> shapes = test::shapes();
+  shapes.insert(shapes.end(), test::openShapes().begin(), test::openShapes().end());
+  for (const auto& shape : shapes) {
+    CAPTURE(shape.name);
+    const SubdivisionLevel base = baseLevel(test::scaled(shape.mesh, 5));
+    const ClosestPoint truth(base, kDeep);
+    double largest = 0;
+    for (const auto& triangle : test::limitPieces(base, 3).triangles)
+      for (const Vec3d& corner : triangle) largest = std::max(largest, truth.of(corner).distance);
+    CHECK(largest < 1e-6);
+  }
+}
+
+TEST_CASE("closest points are global minima over patches that are folded and twisted",
+          "[truth][property]") {
+  PolygonMesh mesh = test::torusGrid(4, 4);
+  mesh.points = randomPoints(16, 5);
+  const SubdivisionLevel base = baseLevel(mesh);
+  const ClosestPoint truth(base, 2);
+  const test::LimitPieces pieces = test::limitPieces(base, 2);
+  REQUIRE(pieces.patches.size() == 16);
+  REQUIRE(pieces.triangles.empty());
+  constexpr int kSamples = 40;
+  std::vector<Vec3d> points;
+  for (const Patch& patch : pieces.patches)
+    for (int i = 0; i <= kSamples; ++i)
+      for (int j = 0; j <= kSamples; ++j)
+        points.push_back(pointOf(patch, {double(i) / kSamples}, {double(j) / kSamples}));
+  for (const Vec3d& p : randomPoints(300, 5)) {
+    const double sampled = distanceToCloud({points}, p);
+    const ClosestPoint::Foot foot = truth.of(p);
+    CHECK(foot.distance <= sampled + 1e-11);
+    CHECK(foot.distance >= sampled - 0.3);
+    CHECK(foot.cosine == Approx(1).margin(1e-9));
   }
 }
 
@@ -174,10 +230,7 @@ TEST_CASE("normals are those of the patches", "[truth]") {
     for (const Patch& patch : pieces.patches) {
       const SplinePlace u{0.3};
       const SplinePlace v{0.6};
-      const CurvePoints row = {u.value(patch.points[0][0], patch.points[1][0], patch.points[2][0]),
-                               u.value(patch.points[0][1], patch.points[1][1], patch.points[2][1]),
-                               u.value(patch.points[0][2], patch.points[1][2], patch.points[2][2])};
-      const Vec3d point = v.value(row[0], row[1], row[2]);
+      const Vec3d point = pointOf(patch, u, v);
       const Vec3d normal = LimitNormals(patch, u).at(v);
       for (const double side : {-1e-3, 1e-3}) {
         const ClosestPoint::Foot foot = truth.of(point + side * normal);
@@ -250,7 +303,7 @@ TEST_CASE("a flat sheet ends in the spline of its boundary loop", "[truth][bound
   }
 }
 
-TEST_CASE("distances from the polygons of a cube are those of a box", "[truth][golden]") {
+TEST_CASE("distances from polygons are those of the solid that they enclose", "[truth][golden]") {
   const ClosestPolygon truth(test::scaled(test::cube(), 5));
   for (const Vec3d& p : randomPoints(2000, 12)) {
     const Vec3d beyond = p.cwiseAbs() - Vec3d::Constant(5);
@@ -258,6 +311,20 @@ TEST_CASE("distances from the polygons of a cube are those of a box", "[truth][g
     const ClosestPolygon::Foot foot = truth.of(p);
     CHECK(foot.signedDistance == Approx(distance).margin(1e-12));
     CHECK(foot.cosine == 1);
+  }
+  // A needle: near its edges, faces see the same point from different sides.
+  const PolygonMesh needle = test::meshOf({{10, 0, 0}, {0, 1, 0}, {0, -1, 1}, {0, -1, -2}},
+                                          {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
+  const ClosestPolygon sharp(needle);
+  for (const Vec3d& p : randomPoints(2000, 12)) {
+    double side = -1;
+    for (Index f = 0; f < needle.faceCount(); ++f) {
+      const auto face = needle.face(f);
+      const Vec3d& a = needle.points[face[0]];
+      side =
+          std::max(side, (needle.points[face[1]] - a).cross(needle.points[face[2]] - a).dot(p - a));
+    }
+    CHECK((sharp.of(p).signedDistance > 0) == (side > 0));
   }
   // An open sheet: beside it, the way is not along the normal.
   const ClosestPolygon open(test::scaled(test::regularPolygon(4), 5));

@@ -87,6 +87,7 @@ TEST_CASE("a ball too small by 0.1 is off by 0.1 everywhere", "[truth]") {
   CHECK(errors.wrongSigns > 0);
   CHECK(errors.surplus > 0);
   CHECK(errors.missing > 0);
+  CHECK(errorsOf(*ballGrid(kBallRadius - 0.015)).wrongSigns == 0);  // too close to the surface
 }
 
 TEST_CASE("every kind of fault of a level set is found", "[truth]") {
@@ -131,13 +132,13 @@ TEST_CASE("values are compared in any order of threads and samples", "[truth][pa
 }
 
 TEST_CASE("two truths of a torus agree", "[truth]") {
-  constexpr double kScale = 8;
+  constexpr double kScale = 6;
   const test::SplineTorus torus(12, 8);
   const auto grid =
       levelSetOf([&](const Vec3d& p) { return kScale * torus.distance(p / kScale); }, 34, 1, 3, 3);
   const test::ClosestPoint truth(baseLevel(test::scaled(test::torusGrid(12, 8), kScale)), 3);
   const LevelSetErrors errors = compareLevelSet(*grid, truth, 1, 3, 3, 5000);
-  CHECK(errors.active > 3000);
+  CHECK(errors.active > 2000);
   CHECK(errors.largest < 1e-5);  // floats
   CHECK(faultsOf(errors) == 0);
 }
