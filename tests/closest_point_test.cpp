@@ -195,13 +195,27 @@ TEST_CASE("closest points are global minima over patches that are folded and twi
     for (int i = 0; i <= kSamples; ++i)
       for (int j = 0; j <= kSamples; ++j)
         points.push_back(pointOf(patch, {double(i) / kSamples}, {double(j) / kSamples}));
-  for (const Vec3d& p : randomPoints(300, 5)) {
+  for (const Vec3d& p : randomPoints(2000, 5)) {
     const double sampled = distanceToCloud({points}, p);
     const ClosestPoint::Foot foot = truth.of(p);
     CHECK(foot.distance <= sampled + 1e-11);
     CHECK(foot.distance >= sampled - 0.3);
     CHECK(foot.cosine == Approx(1).margin(1e-9));
   }
+}
+
+TEST_CASE("the way from a saddle's axis to the saddle is not its shortest", "[truth][golden]") {
+  // One patch: z = 4 x y over [-1/2, 1/2]^2. From (0, 0, 1), the squared distance along x = y is
+  // 2 x^2 + (4 x^2 - 1)^2, which is least at x^2 = 3/16.
+  PolygonMesh mesh = test::sheet(2, 2);
+  for (Vec3d& p : mesh.points) {
+    p -= Vec3d(1, 1, p.z());
+    p.z() = 4 * p.x() * p.y();
+  }
+  const ClosestPoint::Foot foot =
+      ClosestPoint(baseLevel(mesh, BoundaryRule::kFree), 2).of({0, 0, 1});
+  CHECK(foot.distance == Approx(std::sqrt(0.4375)).margin(1e-12));
+  CHECK(std::abs(foot.point.x()) == Approx(std::sqrt(3.0 / 16)).margin(1e-9));
 }
 
 TEST_CASE("distances and normals are those of a spline torus", "[truth][golden]") {
