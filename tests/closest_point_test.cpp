@@ -205,17 +205,17 @@ TEST_CASE("closest points are global minima over patches that are folded and twi
 }
 
 TEST_CASE("the way from a saddle's axis to the saddle is not its shortest", "[truth][golden]") {
-  // One patch: z = 4 x y over [-1/2, 1/2]^2. From (0, 0, 1), the squared distance along x = y is
-  // 2 x^2 + (4 x^2 - 1)^2, which is least at x^2 = 3/16.
+  // One patch: z = x y over [-1/2, 1/2]^2. From (0, 0, 9/8), the squared distance along x = y is
+  // 2 x^2 + (x^2 - 9/8)^2, which is least at x^2 = 1/8.
   PolygonMesh mesh = test::sheet(2, 2);
   for (Vec3d& p : mesh.points) {
     p -= Vec3d(1, 1, p.z());
-    p.z() = 4 * p.x() * p.y();
+    p.z() = p.x() * p.y();
   }
   const ClosestPoint::Foot foot =
-      ClosestPoint(baseLevel(mesh, BoundaryRule::kFree), 2).of({0, 0, 1});
-  CHECK(foot.distance == Approx(std::sqrt(0.4375)).margin(1e-12));
-  CHECK(std::abs(foot.point.x()) == Approx(std::sqrt(3.0 / 16)).margin(1e-9));
+      ClosestPoint(baseLevel(mesh, BoundaryRule::kFree), 2).of({0, 0, 1.125});
+  CHECK(foot.distance == Approx(std::sqrt(1.25)).margin(1e-12));
+  CHECK(std::abs(foot.point.x()) == Approx(std::sqrt(0.125)).margin(1e-9));
 }
 
 TEST_CASE("distances and normals are those of a spline torus", "[truth][golden]") {
