@@ -135,7 +135,7 @@ TEST_CASE("two truths of a torus agree", "[truth]") {
   constexpr double kScale = 6;
   const test::SplineTorus torus(12, 8);
   const auto grid =
-      levelSetOf([&](const Vec3d& p) { return kScale * torus.distance(p / kScale); }, 34, 1, 3, 3);
+      levelSetOf([&](const Vec3d& p) { return kScale * torus.distance(p / kScale); }, 12, 1, 3, 3);
   const test::ClosestPoint truth(baseLevel(test::scaled(test::torusGrid(12, 8), kScale)), 3);
   const LevelSetErrors errors = compareLevelSet(*grid, truth, 1, 3, 3, 5000);
   CHECK(errors.active > 2000);
