@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include <optional>
+
 namespace vox {
 
 /// How an object becomes voxels.
@@ -27,5 +29,11 @@ std::string faultOf(const StopRule& until, Voxelize voxelize, Separation separat
 /// voxels; kAuto with 26-separation, which vertices cannot give, means polygons of
 /// kAutomaticFlatness.
 ConversionWay chooseWay(const StopRule& until, Voxelize voxelize, Separation separation);
+
+/// The level at which all faces of an object stop; empty if they stop at different levels.
+inline std::optional<int> levelOf(const ConversionWay& way) {
+  const bool ofLevel = way.polygons && way.until == StopRule{way.until.levels};
+  return ofLevel ? way.until.levels : std::nullopt;
+}
 
 }  // namespace vox

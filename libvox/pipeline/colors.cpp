@@ -5,12 +5,12 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
-#include "libvox/grid/voxel_means.h"
+#include "libvox/pipeline/feet.h"
 #include "libvox/pipeline/grids.h"
-#include "libvox/pipeline/surface_colors.h"
-#include "libvox/subdivide/colored_surface.h"
 #include "libvox/volume/color.h"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace vox {
@@ -29,27 +29,78 @@ void paintTexture(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
   });
 }
 
-/// Level whose polygons are sampled; empty if vertices are. Polygons refined to other limits than
-/// levels lie near those of a few levels; a voxel that these miss takes the mean of its neighbours.
-std::optional<int> sampledLevel(const ConversionWay& way) {
-  constexpr int kNearEnough = 3;
-  if (!way.polygons) return std::nullopt;
-  return way.until.levels.value_or(kNearEnough);
+/// The colours of the corners of a mesh; none if it has no colours.
+std::vector<Vec3d> cornerColors(const PolygonMesh& mesh) {
+  std::vector<Vec3d> colors;
+  if (!mesh.pointColors.empty()) {
+    for (const Index v : mesh.faceVertices) colors.push_back(mesh.pointColors[v].cast<double>());
+  } else if (!mesh.faceColors.empty()) {
+    for (Index f = 0; f < mesh.faceCount(); ++f)
+      colors.insert(colors.end(), mesh.faceSize(f), mesh.faceColors[f].cast<double>());
+  }
+  return colors;
 }
 
-/// @param colors  of the corners
+/// The colours of a mesh as a function of the place on its surface: in the part of a corner the
+/// bilinear blend of the mean of the face, the middles of the two edges and the corner.
+class MeshColors {
+ public:
+  /// @param corners  colours of the corners
+  MeshColors(const PolygonMesh& mesh, std::vector<Vec3d> corners)
+      : mesh_(mesh), corners_(std::move(corners)) {
+    for (Index f = 0; f < mesh.faceCount(); ++f) {
+      Vec3d sum = Vec3d::Zero();
+      for (Index c = mesh.faceOffsets[f]; c < mesh.faceOffsets[f + 1]; ++c) {
+        sum += corners_[c];
+        faceOf_.push_back(f);
+      }
+      means_.emplace_back(sum / mesh.faceSize(f));
+    }
+  }
+
+  /// At a place in the square of a corner (mesh/limit_piece.h).
+  Vec3d at(Index corner, double u, double v) const {
+    const Index f = faceOf_[corner];
+    const Index first = mesh_.faceOffsets[f];
+    const Index end = mesh_.faceOffsets[f + 1];
+    const Vec3d& here = corners_[corner];
+    const Vec3d& next = corners_[corner + 1 == end ? first : corner + 1];
+    const Vec3d& previous = corners_[(corner == first ? end : corner) - 1];
+    return (u * v) * means_[f] + (u * (1 - v) / 2) * (here + next) +
+           ((1 - u) * v / 2) * (here + previous) + ((1 - u) * (1 - v)) * here;
+  }
+  /// In a triangle of three corners, with the weights of the second and the third.
+  Vec3d at(const Index* corners, double b, double c) const {
+    return (1 - b - c) * corners_[corners[0]] + b * corners_[corners[1]] +
+           c * corners_[corners[2]];
+  }
+
+ private:
+  const PolygonMesh& mesh_;
+  std::vector<Vec3d> corners_;
+  std::vector<Vec3d> means_;   // of each face
+  std::vector<Index> faceOf_;  // of each corner
+};
+
 void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
-                     const PreparedSurface& surface, std::span<const Vec3d> colors,
-                     MemoryBudget budget, const Progress& progress) {
-  budget.take(
-      VoxelMeans::bytesFor(voxels.activeVoxelCount(), voxels.leafCount()) + colors.size_bytes(),
-      "the sums of colours", kScatteredAdvice);
-  VoxelMeans means(voxels);
-  sampleColors(surface.base, colors, sampledLevel(surface.way), budget, progress, means);
-  means.fillGaps();
-  paint(color, voxels, [&](const openvdb::Coord& voxel) {
-    return asFloats(means.meanOf(voxel).value_or(Vec3d::Constant(kPlainColor)));
-  });
+                     const PreparedSurface& surface, const MeshColors& colors,
+                     const SurfaceOptions& options, const MemoryBudget& budget,
+                     Progress& progress) {
+  const FootSurfaces feet = footSurfaces({&surface, 1});
+  const auto colorAt = [&](const FootBins& bins, const FootPlace& at) {
+    if (at.cell->kind == CellKind::kTriangle)
+      return colors.at(&feet.flat[0].corners[std::size_t{3} * at.cell->owner], at.a, at.b);
+    const NewtonCell& cell = bins.newton(*at.cell);
+    const auto place = [&](std::size_t k, float middle, float parameter) {
+      return std::clamp(double{middle} + double{cell.side[k]} * double{parameter}, 0.0, 1.0);
+    };
+    return colors.at(cell.owner, place(0, cell.u, at.a), place(1, cell.v, at.b));
+  };
+  visitFeet(feet, voxels, options, budget, progress,
+            [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
+              openvdb::Vec3s* const values = color.tree().probeLeaf(origin)->buffer().data();
+              leafFeet.forEachFound([&](unsigned i) { values[i] = asFloats(colorAt(bins, leafFeet.place[i])); });
+            });
 }
 
 }  // namespace
@@ -68,17 +119,19 @@ std::optional<PlacedTexture> placedTexture(const std::optional<TextureSpec>& tex
 
 openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask,
                                      std::span<const PreparedSurface> surfaces,
-                                     MemoryBudget& budget, const Progress& progress) {
+                                     const SurfaceOptions& options, MemoryBudget& budget,
+                                     Progress& progress) {
   budget.take(bytesOfVectors(mask.tree()), "the color grid", kScatteredAdvice);
   auto color = colorGrid(mask);
   for (const PreparedSurface& surface : surfaces) {
     const openvdb::MaskTree& voxels = surface.voxels ? *surface.voxels : mask.tree();
     progress.check();
-    const std::vector<Vec3d> colors = cornerColors(surface.base.mesh);
+    std::vector<Vec3d> colors = cornerColors(surface.base.mesh);
     if (surface.texture)
       paintTexture(*color, voxels, *surface.texture);
     else if (!colors.empty())
-      paintMeshColors(*color, voxels, surface, colors, budget, progress);
+      paintMeshColors(*color, voxels, surface, MeshColors(surface.base.mesh, std::move(colors)),
+                      options, budget, progress);
   }
   return color;
 }

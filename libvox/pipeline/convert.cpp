@@ -115,14 +115,13 @@ class SceneMarker {
   openvdb::MaskTree::Ptr all_ = std::make_shared<openvdb::MaskTree>();  // if objects are apart
 };
 
-/// The voxels of all objects; none if no grid needs them.
+/// The voxels of all objects.
 openvdb::MaskGrid::Ptr markObjects(const Scene& scene, const Request& request,
                                    PreparedScene& prepared, Progress& progress,
                                    ConvertReport& report) {
-  const StageTimer timer(report.surfaceSeconds);
   SceneMarker marker(request, needsObjectsApart(prepared, request.grids), prepared, progress,
                      report);
-  for (std::size_t i = 0; needsVoxels(request.grids) && i < scene.objects.size(); ++i)
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
     marker.mark(i, scene.objects[i].mesh.cornerCount());
   return marker.take();
 }
@@ -143,7 +142,21 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   ConvertReport& report = result.report;
   PreparedScene prepared = prepareScene(scene, request, progress, report);
   if (!prepared.estimate.refusal.empty()) throw LimitError(prepared.estimate.refusal);
-  const openvdb::MaskGrid::Ptr mask = markObjects(scene, request, prepared, progress, report);
+  const bool marks = needsVoxels(request.grids);
+  openvdb::MaskGrid::Ptr mask = openvdb::MaskGrid::create();
+  mask->setTransform(
+      openvdb::math::Transform::createLinearTransform(prepared.transform.voxelSize));
+  if (marks) {
+    const StageTimer timer(report.surfaceSeconds);
+    mask = markObjects(scene, request, prepared, progress, report);
+  }
+  openvdb::MaskGrid::Ptr laterMask;
+  const MarkVoxels markVoxels = [&]() -> const openvdb::MaskTree& {
+    if (marks) return mask->tree();
+    ConvertReport unused = report;
+    laterMask = markObjects(scene, request, prepared, progress, unused);
+    return laterMask->tree();
+  };
 
   const VolumeSettings& volume = request.volume;
   result.compression = volume.compression;
@@ -154,9 +167,10 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   const openvdb::MetaMap metadata = describe(scene, request, report);
   for (const GridKind kind : request.grids)
     result.grids.push_back(
-        finished(makeGrid(kind, mask, prepared.surfaces, volume, prepared.budget, progress), kind,
-                 volume, metadata));
-  if (!needsVoxels(request.grids)) report.activeVoxels = result.grids[0]->activeVoxelCount();
+        finished(makeGrid(kind, {mask, prepared.surfaces, markVoxels}, volume, request.surface,
+                          prepared.budget, progress, report.warnings),
+                 kind, volume, metadata));
+  if (!marks) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
 }
 

@@ -1,32 +1,44 @@
 #pragma once
 
 #include "libvox/grid/openvdb_fwd.h"
+#include "libvox/options/surface_options.h"
 #include "libvox/options/volume_options.h"
 #include "libvox/pipeline/prepared_surface.h"
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace vox {
 
 class MemoryBudget;
 class Progress;
 
-/// The grid `surface`: a narrow band of signed distances to the smooth surfaces of all objects, or
-/// to the polygons of objects that stop at a level. It is made from polygons that follow the
-/// surfaces within the tolerance, never from voxels.
+/// Makes the active voxels of all objects; called at most once.
+using MarkVoxels = std::function<const openvdb::MaskTree&()>;
+
+/// The grid `surface`: a narrow band of exact signed distances to the limit surfaces of all objects,
+/// or to the polygons of objects that stop at a level.
 ///
-/// Closed components that face outward are united. Closed components that face inward are taken out
-/// of the components that they lie in. Components without inside become sheets one voxel thick, or
-/// with OpenMesh::kUnsigned distances without sign. Components whose boxes do not overlap are made
-/// together. Beyond 20000 closed components all are made together: faces inside others then stay as
-/// seams within.
+/// What is inside is decided as for a solid density (inside.h): the active voxels and what they
+/// enclose. So components are united, cavities stay, parts of a surface inside others leave no
+/// trace, and holes narrower than a voxel do no harm. Where one closed surface does not meet itself
+/// the side of the closest point is the same, and the voxels are not needed.
 ///
+/// Components that enclose nothing become sheets one voxel thick, or with OpenMesh::kUnsigned
+/// distances without sign.
+///
+/// @param warnings  gets a line if the surface encloses only places thinner than a voxel
 /// @throws LimitError
 /// @throws Cancelled
 std::shared_ptr<openvdb::FloatGrid> surfaceGrid(std::span<const PreparedSurface> surfaces,
                                                 const VolumeSettings& settings,
+                                                const SurfaceOptions& options,
                                                 const openvdb::math::Transform& transform,
-                                                MemoryBudget& budget, const Progress& progress);
+                                                const MarkVoxels& markVoxels, MemoryBudget& budget,
+                                                Progress& progress,
+                                                std::vector<std::string>& warnings);
 
 }  // namespace vox

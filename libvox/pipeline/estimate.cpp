@@ -7,16 +7,13 @@
 #include "libvox/core/numbered.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
-#include "libvox/grid/voxel_means.h"
 #include "libvox/mesh/area_vector.h"
 #include "libvox/options/voxelize.h"
-#include "libvox/pipeline/distance.h"
 #include "libvox/pipeline/grids.h"
-#include "libvox/pipeline/limit_polygons.h"
+#include "libvox/pipeline/few_polygons.h"
 #include "libvox/pipeline/refined_polygons.h"
 #include "libvox/prepare/enclosure.h"
 #include "libvox/subdivide/stop.h"
-#include "libvox/volume/level_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,12 +122,6 @@ void addAreas(const PolygonMesh& polygons, Measure& measure) {
   }
 }
 
-/// The level at which all faces of an object stop; empty if they stop at different levels.
-std::optional<int> levelOf(const ConversionWay& way) {
-  const bool ofLevel = way.polygons && way.until == StopRule{way.until.levels};
-  return ofLevel ? way.until.levels : std::nullopt;
-}
-
 /// Number of active voxels. Vertex conversion misses some cubes that the surface only just cuts.
 double activeVoxelsOf(const ConversionWay& way, const Measure& m) {
   constexpr double kOfCubes = 0.75;
@@ -177,6 +168,7 @@ Measure measureOf(std::span<const PreparedSurface> surfaces) {
 constexpr double kHeap = 16;  // overhead of the heap for a node
 constexpr double kFilePerUpper = 9200;
 constexpr double kFilePerLower = 1100;
+constexpr double kCellBytes = 40;  // for each square voxel of the surface: cells and their bins
 constexpr double kMoreFilePerLeaf = 50;  // if its values are all equal
 
 GridEstimate estimateMask(const Measure& m) {
@@ -213,7 +205,7 @@ GridEstimate estimateSurface(const Measure& m, const VolumeSettings& volume) {
   grid.voxels = 2 * band * m.area;
   grid.leaves = std::max(m.leaves, (8 * m.taxicabArea + 2 * band * m.area) / FloatLeaf::SIZE);
   grid.bytes = bytesOfValues(grid.leaves, m);
-  grid.peakBytes = bytesOfDistances(m.area, band).peak + grid.bytes;
+  grid.peakBytes = grid.bytes + kCellBytes * m.area;
   const double filePerVoxel = volume.half ? 2.6 : 4.4;
   grid.fileBytes = grid.voxels * filePerVoxel + m.lowers * kFilePerLower + m.uppers * kFilePerUpper;
   return grid;
@@ -229,9 +221,7 @@ GridEstimate estimateVectors(GridKind kind, const Measure& m, bool vary) {
   constexpr double kLeaf = sizeof(Leaf) + Leaf::SIZE * sizeof(openvdb::Vec3s) + kHeap;
   grid.bytes =
       grid.leaves * kLeaf + m.lowers * sizeof(Upper::ChildNodeType) + m.uppers * sizeof(Upper);
-  const auto sums = VoxelMeans::bytesFor(static_cast<std::uint64_t>(grid.voxels),
-                                         static_cast<std::uint64_t>(grid.leaves));
-  grid.peakBytes = grid.bytes + static_cast<double>(sums);
+  grid.peakBytes = grid.bytes + kCellBytes * m.area;
   constexpr double kMoreFilePerVoxel = 10;
   grid.fileBytes += vary ? grid.voxels * kMoreFilePerVoxel : grid.leaves * kMoreFilePerLeaf;
   return grid;

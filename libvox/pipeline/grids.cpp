@@ -5,7 +5,6 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
-#include "libvox/grid/voxel_means.h"
 #include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/distance.h"
 #include "libvox/pipeline/inside.h"
@@ -13,7 +12,6 @@
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
 #include "libvox/volume/fill.h"
-#include "libvox/volume/normal_grid.h"
 
 #include <algorithm>
 #include <numeric>
@@ -52,20 +50,6 @@ openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
   return density;
 }
 
-openvdb::GridBase::Ptr makeNormals(const openvdb::MaskGrid& mask,
-                                   std::span<const PreparedSurface> surfaces, MemoryBudget& budget,
-                                   Progress& progress) {
-  constexpr const char* kAdvice = "leave it out, use larger voxels, or raise --max-memory";
-  budget.take(bytesOfVectors(mask.tree()), "the normal grid", kAdvice);
-  budget.require(VoxelMeans::bytesFor(mask.tree().activeVoxelCount(), mask.tree().leafCount()),
-                 "the normals", kAdvice);
-  VoxelMeans means(mask.tree());
-  for (const PreparedSurface& surface : surfaces)
-    addNormals(surface.base, surface.way, progress, means);
-  means.fillGaps();
-  return normalGrid(mask, means);
-}
-
 }  // namespace
 
 std::uint64_t bytesOfFloats(const openvdb::MaskTree& mask) {
@@ -92,22 +76,24 @@ bool needsVoxels(std::span<const GridKind> kinds) {
                      [](GridKind kind) { return kind != GridKind::kSurface; });
 }
 
-openvdb::GridBase::Ptr makeGrid(GridKind kind, const openvdb::MaskGrid::Ptr& mask,
-                                std::span<const PreparedSurface> surfaces,
-                                const VolumeSettings& volume, MemoryBudget& budget,
-                                Progress& progress) {
+openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
+                                const VolumeSettings& volume, const SurfaceOptions& options,
+                                MemoryBudget& budget, Progress& progress,
+                                std::vector<std::string>& warnings) {
   progress.check();
+  const auto& [mask, surfaces, markVoxels] = sources;
   switch (kind) {
     case GridKind::kMask:
       break;
     case GridKind::kDensity:
       return makeDensity(*mask, surfaces, volume, budget, progress);
     case GridKind::kSurface:
-      return surfaceGrid(surfaces, volume, mask->transform(), budget, progress);
+      return surfaceGrid(surfaces, volume, options, mask->transform(), markVoxels, budget, progress,
+                         warnings);
     case GridKind::kNormal:
-      return makeNormals(*mask, surfaces, budget, progress);
+      return makeNormalGrid(*mask, surfaces, options, budget, progress);
     case GridKind::kColor:
-      return makeColorGrid(*mask, surfaces, budget, progress);
+      return makeColorGrid(*mask, surfaces, options, budget, progress);
   }
   return mask;
 }

@@ -3,6 +3,7 @@
 #include "libvox/grid/openvdb_fwd.h"
 #include "libvox/options/grid_kind.h"
 #include "libvox/options/volume_options.h"
+#include "libvox/pipeline/distance.h"
 #include "libvox/pipeline/prepared_surface.h"
 
 #include <cstdint>
@@ -25,14 +26,22 @@ inline constexpr const char* kScatteredAdvice =
 /// True if one of the grids is made from the active voxels.
 bool needsVoxels(std::span<const GridKind> kinds);
 
-/// The output grid of a kind, made from the active voxels and the surfaces that they came from.
+/// What grids are made of.
+struct GridSources {
+  std::shared_ptr<openvdb::MaskGrid> mask;  ///< active voxels; empty unless a grid needs them
+  std::span<const PreparedSurface> surfaces;
+  MarkVoxels markVoxels;  ///< makes the active voxels of all surfaces if the mask is empty
+};
+
+/// The output grid of a kind.
+/// @param warnings  gets lines for the report
 /// @throws LimitError  the grid does not fit into the budget
 /// @throws Cancelled
-std::shared_ptr<openvdb::GridBase> makeGrid(GridKind kind,
-                                            const std::shared_ptr<openvdb::MaskGrid>& mask,
-                                            std::span<const PreparedSurface> surfaces,
-                                            const VolumeSettings& volume, MemoryBudget& budget,
-                                            Progress& progress);
+std::shared_ptr<openvdb::GridBase> makeGrid(GridKind kind, const GridSources& sources,
+                                            const VolumeSettings& volume,
+                                            const SurfaceOptions& options, MemoryBudget& budget,
+                                            Progress& progress,
+                                            std::vector<std::string>& warnings);
 
 /// Work of making grids (work.h), by the area of each object in square voxels.
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds);

@@ -8,8 +8,8 @@
 #include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/grids.h"
-#include "libvox/pipeline/limit_polygons.h"
 #include "libvox/pipeline/refine.h"
+#include "libvox/pipeline/refined_polygons.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/volume/fill.h"
 #include "libvox/volume/winding.h"
@@ -67,6 +67,29 @@ PolygonMesh triangulated(const PolygonMesh& mesh) {
   return cut;
 }
 
+/// The base level of some faces.
+SubdivisionLevel levelOfFaces(const PreparedSurface& surface, const std::vector<Index>& faces) {
+  if (faces.size() == surface.base.mesh.faceCount()) return surface.base;
+  const bool extends = surface.base.boundary == BoundaryStage::kExtend;
+  return baseLevel(submeshOf(surface.base.mesh, faces),
+                   extends ? BoundaryRule::kExtend : BoundaryRule::kFree);
+}
+
+/// Triangles that follow some faces of a surface within a quarter of a voxel.
+PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>& faces,
+                       const MemoryBudget& budget, const Progress& progress) {
+  constexpr double kTolerance = 0.25;
+  if (faces.empty()) return {};
+  if (levelOf(surface.way)) return trianglesOfLevel(surface, faces, budget, progress);
+  Progress unwatched;
+  const TriangleSoup soup =
+      triangleSoup(levelOfFaces(surface, faces), StopRule{.flatness = kTolerance}, unwatched);
+  PolygonMesh mesh;
+  mesh.points = soup.points;
+  for (const auto& triangle : soup.triangles) mesh.addFace(triangle);
+  return mesh;
+}
+
 bool hasCavity(const std::vector<MeshComponent>& components) {
   return std::any_of(components.begin(), components.end(),
                      [](const MeshComponent& c) { return c.side == MeshComponent::Side::kIn; });
@@ -74,22 +97,13 @@ bool hasCavity(const std::vector<MeshComponent>& components) {
 
 }  // namespace
 
-PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>& faces,
-                       double tolerance, const MemoryBudget& budget, const Progress& progress) {
-  if (faces.empty()) return {};
-  SubdivisionLevel base;
-  if (faces.size() == surface.base.mesh.faceCount()) {
-    base = surface.base;
-  } else {
-    const bool extends = surface.base.boundary == BoundaryStage::kExtend;
-    base = baseLevel(submeshOf(surface.base.mesh, faces),
-                     extends ? BoundaryRule::kExtend : BoundaryRule::kFree);
-  }
-  const StopRule& until = surface.way.until;
-  const bool ofLevel = surface.way.polygons && until.levels && until == StopRule{until.levels};
-  if (!ofLevel) return limitPolygons(std::move(base), tolerance, budget, progress);
+PolygonMesh trianglesOfLevel(const PreparedSurface& surface, const std::vector<Index>& faces,
+                             const MemoryBudget& budget, const Progress& progress) {
+  progress.check();
   Progress unwatched;
-  return triangulated(subdividedWithin(budget, std::move(base), *until.levels, unwatched).mesh);
+  return triangulated(
+      subdividedWithin(budget, levelOfFaces(surface, faces), *levelOf(surface.way), unwatched)
+          .mesh);
 }
 
 void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
@@ -106,7 +120,6 @@ openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& active,
                                const MemoryBudget& budget, const Progress& progress) {
   std::vector<std::vector<MeshComponent>> components;
   for (const PreparedSurface& surface : surfaces) components.push_back(componentsOf(surface.base));
-  constexpr double kTolerance = 0.25;
   AreCavities areCavities;
   const auto areInCavities = [&](std::span<const openvdb::Coord> voxels) {
     std::vector<int> inward(voxels.size(), 0);
@@ -115,7 +128,7 @@ openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& active,
       for (const auto& [side, sum] : {std::pair(MeshComponent::Side::kIn, &inward),
                                       std::pair(MeshComponent::Side::kOut, &outward)}) {
         const PolygonMesh polygons =
-            polygonsOf(surfaces[i], facesOf(components[i], side), kTolerance, budget, progress);
+            polygonsOf(surfaces[i], facesOf(components[i], side), budget, progress);
         const std::vector<int> windings = windingNumbers(polygons, voxels);
         std::transform(sum->begin(), sum->end(), windings.begin(), sum->begin(), std::plus<>());
       }

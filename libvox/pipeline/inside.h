@@ -32,12 +32,11 @@ std::shared_ptr<openvdb::MaskTree> solidOf(const openvdb::MaskTree& active,
                                            std::span<const PreparedSurface> surfaces,
                                            const MemoryBudget& budget, const Progress& progress);
 
-/// Triangles and quads that follow some faces of a surface within the tolerance. If the surface
-/// stops at a level: the polygons of that level.
-/// @param faces  whole components
+/// The polygons at which a surface stops (levelOf), cut into triangles.
+/// @param faces  ascending, whole components
 /// @throws LimitError
 /// @throws Cancelled
-PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>& faces,
-                       double tolerance, const MemoryBudget& budget, const Progress& progress);
+PolygonMesh trianglesOfLevel(const PreparedSurface& surface, const std::vector<Index>& faces,
+                             const MemoryBudget& budget, const Progress& progress);
 
 }  // namespace vox

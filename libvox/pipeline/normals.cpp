@@ -1,106 +1,64 @@
-// Normals of polygons to voxels: paper section 8.
+// Normals of the surfaces at the feet of voxels.
 
 #include "libvox/pipeline/normals.h"
 
-#include "libvox/core/parallel.h"
-#include "libvox/core/progress.h"
-#include "libvox/grid/voxel_means.h"
+#include "libvox/core/memory.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/mesh/area_vector.h"
-#include "libvox/options/voxelize.h"
-#include "libvox/pipeline/refined_polygons.h"
-#include "libvox/pipeline/surface.h"
-#include "libvox/pipeline/vertex_normals.h"
-#include "libvox/voxelize/blended_triangle.h"
-#include "libvox/voxelize/scan.h"
-#include "libvox/voxelize/triangulate.h"
+#include "libvox/pipeline/feet.h"
+#include "libvox/pipeline/grids.h"
+#include "libvox/volume/vector_grid.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
-#include <array>
-#include <span>
 #include <vector>
 
 namespace vox {
 namespace {
 
-/// Adds the normals of polygons to the means; one for each thread.
-class NormalSink : public PolygonSink {
- public:
-  explicit NormalSink(VoxelMeans& means) : writer_(means) {}
+openvdb::Vec3s directionOf(const Float3& v) {
+  const float size = length(v);
+  return size > 0 ? openvdb::Vec3s(v[0] / size, v[1] / size, v[2] / size) : openvdb::Vec3s(0, 0, 0);
+}
 
-  bool wantsNormals() const override { return true; }
-
-  /// Faces of a smooth surface: normals are blended.
-  void polygons(const PolygonMesh& piece, std::span<const Vec3d> normals) override {
-    triangulate(piece, 0, piece.faceCount());
-    BlendedTriangle triangle;
-    Index last = kNone;
-    scanTriangles(piece.points, triangles_, Separation::k26, [&](const VoxelBlock& block) {
-      if (block.triangle != last) triangle = blended(piece, normals, block.triangle);
-      last = block.triangle;
-      forEachVoxel(block, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-        writer_.add({x, y, z}, triangle.normalNear(Vec3d(x, y, z)));
-      });
-    });
-  }
-
-  /// Flat faces.
-  void faces(const PolygonMesh& mesh, Index begin, Index end) {
-    triangulate(mesh, begin, end);
-    scanTriangles(mesh.points, triangles_, Separation::k26, [this](const VoxelBlock& block) {
-      forEachVoxel(block, [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-        writer_.add({x, y, z}, normals_[block.triangle]);
-      });
-    });
-  }
-
- private:
-  BlendedTriangle blended(const PolygonMesh& piece, std::span<const Vec3d> normals,
-                          Index triangle) const {
-    const auto& [a, b, c] = triangles_[triangle];
-    return {{piece.points[a], piece.points[b], piece.points[c]},
-            {normals[a], normals[b], normals[c]},
-            normals_[triangle]};
-  }
-
-  void triangulate(const PolygonMesh& mesh, Index begin, Index end) {
-    triangles_.clear();
-    normals_.clear();
-    for (Index f = begin; f != end; ++f) addTriangles(mesh, f);
-  }
-
-  void addTriangles(const PolygonMesh& mesh, Index f) {
+/// Unit normals of the faces of a mesh; 0 without area.
+std::vector<openvdb::Vec3s> faceNormals(const PolygonMesh& mesh, const std::vector<Index>& faces) {
+  std::vector<openvdb::Vec3s> normals;
+  for (const Index f : faces) {
     const auto face = mesh.face(f);
-    const Vec3d normal =
-        twiceAreaVector(face.size(), [&](std::size_t i) { return mesh.points[face[i]]; });
-    if (normal.isZero(0)) return;
-    faces_.add(mesh, f, triangles_);
-    normals_.resize(triangles_.size(), normal.normalized());
+    const Vec3d n = twiceAreaVector(
+        face.size(), [&](std::size_t i) -> const Vec3d& { return mesh.points[face[i]]; });
+    normals.emplace_back(openvdb::Vec3d(n.stableNormalized().data()));
   }
-
-  VoxelMeans::Writer writer_;
-  FaceTriangulator faces_;
-  std::vector<std::array<Index, 3>> triangles_;  // of a piece
-  std::vector<Vec3d> normals_;                   // of their polygons
-};
+  return normals;
+}
 
 }  // namespace
 
-void addNormals(const SubdivisionLevel& base, const ConversionWay& way, Progress& progress,
-                VoxelMeans& means) {
-  if (!way.polygons) return addNormalsOfVertices(base, progress, means);
-  tbb::enumerable_thread_specific<NormalSink> sinks([&] { return NormalSink(means); });
-  if (way.until.levels == 0) {
-    constexpr std::size_t kFacesPerPart = 64;
-    parallelForRanges(
-        base.mesh.faceCount(), kFacesPerPart, [&](std::size_t begin, std::size_t end) {
-          progress.check();
-          sinks.local().faces(base.mesh, static_cast<Index>(begin), static_cast<Index>(end));
-        });
-    return;
-  }
-  const PolygonPlan plan = planPolygons(base, way.until, kDefaultSubmeshFaces, progress);
-  makePolygons(base, plan, progress, [&]() -> PolygonSink& { return sinks.local(); });
+openvdb::Vec3SGrid::Ptr makeNormalGrid(const openvdb::MaskGrid& mask,
+                                       std::span<const PreparedSurface> surfaces,
+                                       const SurfaceOptions& options, MemoryBudget& budget,
+                                       Progress& progress) {
+  budget.take(bytesOfVectors(mask.tree()), "the normal grid",
+              "leave it out, use larger voxels, or raise --max-memory");
+  auto grid = vectorGrid(mask, 0);
+  grid->setName("normal");
+  grid->setVectorType(openvdb::VEC_COVARIANT_NORMALIZE);
+  const FootSurfaces feet = footSurfaces(surfaces);
+  std::vector<std::vector<openvdb::Vec3s>> flatNormals;
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    flatNormals.push_back(faceNormals(surfaces[s].base.mesh, feet.flat[s].faces));
+  const auto normalAt = [&](const FootBins& bins, const FootPlace& at) {
+    if (at.cell->kind == CellKind::kTriangle) {
+      const std::size_t s = feet.surfaceOf(at.cell->owner);
+      return flatNormals[s][at.cell->owner - feet.firstOwner[s]];
+    }
+    return directionOf(Jet(bins.newton(*at.cell).surface, at.a, at.b).normal());
+  };
+  visitFeet(feet, mask.tree(), options, budget, progress,
+            [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
+              openvdb::Vec3s* const values = grid->tree().probeLeaf(origin)->buffer().data();
+              leafFeet.forEachFound([&](unsigned i) { values[i] = normalAt(bins, leafFeet.place[i]); });
+            });
+  return grid;
 }
 
 }  // namespace vox

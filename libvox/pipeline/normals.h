@@ -1,23 +1,26 @@
 #pragma once
 
-#include "libvox/pipeline/choose.h"
-#include "libvox/subdivide/level.h"
+#include "libvox/grid/openvdb_fwd.h"
+#include "libvox/options/surface_options.h"
+#include "libvox/pipeline/prepared_surface.h"
+
+#include <memory>
+#include <span>
 
 namespace vox {
 
+class MemoryBudget;
 class Progress;
-class VoxelMeans;
 
-/// Adds the normals of a surface to the means of its voxels.
-///
-/// By vertices: each voxel gets the limit normals at the vertices in it. By polygons: each polygon
-/// gives a normal to every voxel whose closed cube it meets, the one at its point nearest to the
-/// centre of the voxel; normals are blended over triangles from the limit normals at their corners.
-/// Polygons of level 0 are flat and have their own normal. Source: paper section 8.
-///
-/// @param base  in index space
-/// @throws LimitError, Cancelled
-void addNormals(const SubdivisionLevel& base, const ConversionWay& way, Progress& progress,
-                VoxelMeans& means);
+/// The grid `normal`: at each voxel the exact normal of the limit surface at the point closest to
+/// the middle of the voxel; of objects that are not smoothed, the normal of the polygon there. Unit
+/// vectors, outward; 0 where the surface has no normal. Source: paper section 8; DESIGN section 18.
+/// @param mask  active voxels of all surfaces, without tiles
+/// @throws LimitError
+/// @throws Cancelled
+std::shared_ptr<openvdb::Vec3SGrid> makeNormalGrid(const openvdb::MaskGrid& mask,
+                                                   std::span<const PreparedSurface> surfaces,
+                                                   const SurfaceOptions& options,
+                                                   MemoryBudget& budget, Progress& progress);
 
 }  // namespace vox

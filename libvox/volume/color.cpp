@@ -2,14 +2,12 @@
 
 #include "libvox/volume/color.h"
 
+#include "libvox/volume/vector_grid.h"
+
 namespace vox {
 
 openvdb::Vec3SGrid::Ptr colorGrid(const openvdb::MaskGrid& mask) {
-  const openvdb::Vec3f background(0);
-  auto tree = std::make_shared<openvdb::Vec3STree>(
-      mask.tree(), background, openvdb::Vec3f(kPlainColor), openvdb::TopologyCopy());
-  auto color = openvdb::Vec3SGrid::create(tree);
-  color->setTransform(mask.transform().copy());
+  auto color = vectorGrid(mask, kPlainColor);
   color->setName("color");
   return color;
 }

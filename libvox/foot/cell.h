@@ -1,0 +1,82 @@
+#pragma once
+
+#include "libvox/foot/biquadratic.h"
+#include "libvox/grid/openvdb.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+namespace vox {
+
+inline constexpr int kBinLog2 = 5;
+inline constexpr int kBinSide = 1 << kBinLog2;  ///< voxels
+
+/// Where to look for the voxels of a cell: the space between three pairs of parallel planes, within
+/// a box of voxels. Coordinates are relative to `origin`, so that floats are precise enough.
+struct Prism {
+  openvdb::Coord origin;
+  Float3 centre;
+  std::array<Float3, 3> normals;  ///< |normals[k] . (x - centre)| <= 1 inside
+  openvdb::CoordBBox box;
+};
+
+/// A cell: a part of the limit surface that turns so little, or is so small, that Newton's method
+/// finds the foot of a point near it.
+struct NewtonCell {
+  Prism prism;
+  Biquadratic surface;            ///< from prism.origin
+  Float3 middle;                   ///< surface at a = b = 0
+  std::array<Float3, 2> guess;     ///< first a, b of a point x: guess . (x - middle)
+  int mostSteps = 0;
+  float stop = 0;                 ///< a step of fewer parameters is the last one
+  // Its place: parameter u of the square of the corner is u + side[0] a, v is v + side[1] b.
+  std::uint32_t owner = 0;  ///< CellMaker::firstOwner + number of the corner
+  float u = 0, v = 0;
+  std::array<float, 2> side = {};
+};
+
+/// A cell with distance t and parameters a, b as cubic polynomials of x - prism.centre. Order of
+/// the terms: 1 X Y Z XX XY XZ YY YZ ZZ XXX XXY XXZ XYY XYZ XZZ YYY YYZ YZZ ZZZ.
+struct PolynomialCell {
+  Prism prism;
+  std::array<std::array<float, 20>, 3> terms;  ///< of t, a, b
+  float limitA = 1, limitB = 1;  ///< the foot is in the cell if |a| and |b| are at most these
+};
+
+/// A flat triangle of a polygon mesh. The foot of a point is in its face, on an edge or at a vertex;
+/// the normal of this place tells the side of the point.
+struct TriangleCell {
+  Prism prism;
+  std::array<Float3, 3> points;         ///< counter-clockwise, from prism.origin
+  Float3 normal;                        ///< unit
+  std::array<Float3, 3> edgeNormals;    ///< of the edge from point i to the next: sum of both faces'
+  std::array<Float3, 3> vertexNormals;  ///< means of the faces', weighted by their angles
+};
+
+enum class CellKind : std::uint8_t { kNewton, kPolynomial, kTriangle };
+
+/// A cell in a bin: a cube of 32^3 voxels, aligned, which one task scans.
+struct BinnedCell {
+  openvdb::Coord bin;   ///< lowest voxel / 32
+  std::uint32_t owner;  ///< orders the cells of a bin; all cells of an owner are in one store
+  std::uint32_t cell;   ///< index in its store, among the cells of its kind
+  std::uint16_t store;
+  CellKind kind;
+};
+
+/// The cells that one thread has made. References to cells stay valid.
+struct CellStore {
+  std::uint16_t number = 0;
+  std::deque<NewtonCell> newton;
+  std::deque<PolynomialCell> polynomial;
+  std::deque<TriangleCell> triangles;
+  std::vector<BinnedCell> binned;
+  const std::vector<openvdb::Coord>* onlyBins = nullptr;  ///< if not null: the bins of interest
+
+  /// Enters a cell in all bins of interest that its box meets.
+  void bin(const Prism& prism, std::uint32_t owner, std::size_t cell, CellKind kind);
+};
+
+}  // namespace vox

@@ -1,0 +1,279 @@
+// Pieces to cells: how far a part turns and spreads decides whether it is cut, and what cell it is.
+
+#include "libvox/foot/cell_maker.h"
+
+#include "libvox/foot/foot_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vox {
+namespace {
+
+constexpr float kLongestFlat = 20;   // voxels
+constexpr float kLongestCurved = 4;  // voxels
+constexpr float kReachMargin = 0.05F;
+constexpr int kMostDepth = 20;
+
+float sizeOf(const Float3& a) { return length(a); }
+
+float lengthAlongU(const LimitPiece& piece, bool alongU) {
+  double longest = 0;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto& p = piece.points;
+      const Vec3d step = alongU ? Vec3d(p[i + 1][j] - p[i][j]) : Vec3d(p[j][i + 1] - p[j][i]);
+      longest = std::max(longest, step.norm());
+    }
+  return static_cast<float>(longest);
+}
+
+/// Range of values.
+struct Range {
+  float low = std::numeric_limits<float>::max();
+  float high = std::numeric_limits<float>::lowest();
+  void add(float value, float margin) {
+    low = std::min(low, value - margin);
+    high = std::max(high, value + margin);
+  }
+};
+
+}  // namespace
+
+/// What is known of a part of a piece: its coefficients, the frame in its middle, and how it
+/// extends in this frame, measured at 4 x 4 points.
+struct CellMaker::Shape {
+  Biquadratic c;
+  openvdb::Coord origin;
+  Float3 alongA, alongB, normal = {};  // derivatives and unit normal in the middle
+  std::array<Float3, 2> guess = {};    // a and b of a point, if the surface were flat
+  float lengthA, lengthB;             // of alongA, alongB: half of the cell's sides
+  bool degenerate;                    // it has no normal in the middle
+  bool badNormal;                     // it has no normal somewhere, or nearly so
+  std::array<Range, 3> tube;          // extent of the tube in the frame; along the normal: surface
+  std::array<float, 2> flat = {};     // largest |a| and |b| of the surface itself
+  float sine = 1;                     // of the largest turn of the normal from the middle
+  float flare = 1;                    // how much the tube is wider than the surface
+  std::array<Range, 3> box;           // of the tube
+  float turnA, turnB;                 // how much it turns along a and b
+
+  Shape(const LimitPiece& piece, const ParameterBox& part, float reach) {
+    const auto exact = coefficientsOf(piece.points, part);
+    for (int k = 0; k < 3; ++k) origin[k] = static_cast<int>(std::lround(exact[0][k]));
+    for (std::size_t m = 0; m < 9; ++m)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        const double shift = m == 0 ? origin[static_cast<int>(k)] : 0;
+        c[m][k] = static_cast<float>(exact[m][axis] - shift);
+      }
+    setFrame();
+    measure(reach);
+    setTurn();
+  }
+
+ private:
+  void setFrame() {
+    alongA = c[1];
+    alongB = c[3];
+    normal = cross(alongA, alongB);
+    const float area = sizeOf(normal);
+    lengthA = sizeOf(alongA);
+    lengthB = sizeOf(alongB);
+    degenerate = !(area > 1e-5F * lengthA * lengthB) || area < 1e-12F;
+    badNormal = degenerate;
+    if (degenerate) {
+      normal = {};
+      return;
+    }
+    for (float& x : normal) x /= area;
+    guess = {cross(alongB, normal), cross(normal, alongA)};
+    for (Float3& g : guess)
+      for (float& x : g) x /= area;
+  }
+
+  void measure(float reach) {
+    constexpr std::array<float, 4> kPlaces = {-1, -1.0F / 3, 1.0F / 3, 1};
+    float least = std::numeric_limits<float>::max();
+    float most = 0;
+    float turn = 0;  // square of the sine
+    for (const float b : kPlaces)
+      for (const float a : kPlaces) {
+        const Jet jet(c, a, b);
+        Float3 n = jet.normal();
+        const float size = sizeOf(n);
+        least = std::min(least, size);
+        most = std::max(most, size);
+        for (float& x : n) x /= std::max(size, 1e-30F);
+        Float3 d;
+        for (std::size_t k = 0; k < 3; ++k) d[k] = jet.s[k] - c[0][k];
+        for (std::size_t k = 0; k < 2; ++k) {
+          const float at = dot(guess[k], d);
+          flat[k] = std::max(flat[k], std::abs(at));
+          tube[k].add(at, reach * std::abs(dot(guess[k], n)));
+        }
+        tube[2].add(dot(normal, d), 0);
+        const float cosine = dot(normal, n);
+        turn = std::max(turn, cosine < 0 ? 1 : 1 - cosine * cosine);
+        for (std::size_t k = 0; k < 3; ++k) box[k].add(jet.s[k], reach * std::abs(n[k]));
+      }
+    if (least < 0.02F * most) badNormal = true;
+    sine = std::sqrt(std::max(0.0F, turn));
+    const auto wider = [&](std::size_t k) {
+      return std::max(-tube[k].low, tube[k].high) - flat[k];
+    };
+    flare = std::max(wider(0), wider(1));
+  }
+
+  /// Second derivatives along the normal, as far as they reach over the cell.
+  void setTurn() {
+    const auto bend = [&](std::size_t m) {
+      return std::abs(dot(c[m], normal)) + 0.1F * sizeOf(c[m]);
+    };
+    turnA = badNormal ? lengthA : bend(2) + 0.5F * bend(4);
+    turnB = badNormal ? lengthB : bend(6) + 0.5F * bend(4);
+  }
+};
+
+void CellMaker::piece(const LimitPiece& piece) {
+  piece_ = &piece;
+  const auto parts = [&](bool alongU) {
+    return std::max(
+        1, static_cast<int>(std::ceil(lengthAlongU(piece, alongU) / kLongestFlat - 1e-6F)));
+  };
+  const int countU = parts(true);
+  const int countV = parts(false);
+  for (int i = 0; i < countU; ++i)
+    for (int j = 0; j < countV; ++j) {
+      unsigned sides = piece.boundarySides;
+      if (i > 0) sides &= ~unsigned{kSideU0};
+      if (i + 1 < countU) sides &= ~unsigned{kSideU1};
+      if (j > 0) sides &= ~unsigned{kSideV0};
+      if (j + 1 < countV) sides &= ~unsigned{kSideV1};
+      const auto at = [](int k, int of) { return static_cast<double>(k) / of; };
+      makeCell({at(i, countU), at(i + 1, countU), at(j, countV), at(j + 1, countV)}, sides, 0);
+    }
+}
+
+/// Makes a cell of a part of the piece, or cuts it in two.
+void CellMaker::makeCell(const ParameterBox& part, unsigned sides, int depth) {
+  const Shape shape(*piece_, part, options_.reach + kReachMargin);
+  const float sideA = 2 * shape.lengthA;
+  const float sideB = 2 * shape.lengthB;
+  const float longest = std::max(sideA, sideB);
+  const bool curved = shape.flare > 0.35F || shape.badNormal;
+  const bool small = std::min(sideA, sideB) < 1.5F || sideA * sideB < 6;
+  const bool byNewton = curved || small || sides != 0 || !options_.polynomials;
+  const auto cut = [&](bool alongA) { splitCell(part, sides, depth, alongA); };
+  const bool mayCut = depth < kMostDepth;
+  if (byNewton) {
+    const float limit = curved || sides != 0 ? kLongestCurved : kLongestFlat;
+    if (mayCut && longest > 1.3F * limit) return cut(sideA >= sideB);
+    if (mayCut && (shape.sine > 0.5F || shape.badNormal) && longest > 0.3F)
+      return cut(sideA < 0.1F ? false : sideB < 0.1F || shape.turnA >= shape.turnB);
+    return addNewtonCell(shape, part, sides);
+  }
+  if (mayCut && shape.sine > 0.4F) return cut(shape.turnA >= shape.turnB);
+  if (addPolynomialCell(shape)) return;
+  if (mayCut && longest >= 3) return cut(shape.turnA >= shape.turnB);
+  addNewtonCell(shape, part, sides);
+}
+
+void CellMaker::splitCell(const ParameterBox& part, unsigned sides, int depth, bool alongU) {
+  ParameterBox low = part;
+  ParameterBox high = part;
+  if (alongU)
+    low.u1 = high.u0 = (part.u0 + part.u1) / 2;
+  else
+    low.v1 = high.v0 = (part.v0 + part.v1) / 2;
+  makeCell(low, sides & ~unsigned{alongU ? kSideU1 : kSideV1}, depth + 1);
+  makeCell(high, sides & ~unsigned{alongU ? kSideU0 : kSideV0}, depth + 1);
+}
+
+/// The prism around the tube of a cell, somewhat larger, so that prisms of neighbours overlap. At a
+/// boundary also around everything within reach beyond it.
+Prism CellMaker::prismOf(const Shape& shape, unsigned sides) const {
+  const float reach = options_.reach + kReachMargin;
+  std::array<float, 3> low, high;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const float size = k == 0 ? shape.lengthA : shape.lengthB;
+    const Range& tube = shape.tube[k];
+    const float inflation =
+        0.2F * std::max(0.0F, std::max(-tube.low, tube.high) - 1) + 0.02F * shape.flat[k];
+    const float least = 1 + 0.02F / size;
+    low[k] = std::min(tube.low - inflation, -least);
+    high[k] = std::max(tube.high + inflation, least);
+    const float across = reach * sizeOf(shape.guess[k]);
+    if (shape.badNormal) {
+      high[k] = 1.2F * shape.flat[k] + across;
+      low[k] = -high[k];
+    }
+    if ((sides & (k == 0 ? kSideU0 : kSideV0)) != 0) low[k] -= across;
+    if ((sides & (k == 0 ? kSideU1 : kSideV1)) != 0) high[k] += across;
+    if (sides != 0) {
+      low[k] -= 0.3F * across;
+      high[k] += 0.3F * across;
+    }
+  }
+  const float sag = 0.2F * (shape.tube[2].high - shape.tube[2].low) + 0.01F;
+  low[2] = shape.tube[2].low - sag - reach;
+  high[2] = shape.tube[2].high + sag + reach;
+
+  Prism prism;
+  prism.origin = shape.origin;
+  prism.centre = shape.c[0];
+  prism.normals = {};
+  const std::array<Float3, 3> along = {shape.alongA, shape.alongB, shape.normal};
+  const std::array<Float3, 3> across = {shape.guess[0], shape.guess[1], shape.normal};
+  for (std::size_t k = 0; k < 3 && !shape.degenerate; ++k)
+    for (std::size_t x = 0; x < 3; ++x) {
+      prism.centre[x] += (low[k] + high[k]) / 2 * along[k][x];
+      prism.normals[k][x] = across[k][x] * 2 / (high[k] - low[k]);
+    }
+  for (std::size_t x = 0; x < 3; ++x) {
+    float margin = 0.05F + 0.1F * (std::abs(shape.c[2][x]) + std::abs(shape.c[4][x]) +
+                                   std::abs(shape.c[6][x]));
+    if (shape.badNormal || sides != 0) margin += reach;
+    const int axis = static_cast<int>(x);
+    prism.box.min()[axis] =
+        shape.origin[axis] + static_cast<int>(std::ceil(shape.box[x].low - margin));
+    prism.box.max()[axis] =
+        shape.origin[axis] + static_cast<int>(std::floor(shape.box[x].high + margin));
+  }
+  return prism;
+}
+
+void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsigned sides) {
+  const Prism prism = prismOf(shape, sides);
+  if (prism.box.empty()) return;
+  NewtonCell& cell = store_.newton.emplace_back();
+  cell.prism = prism;
+  cell.surface = shape.c;
+  cell.middle = shape.c[0];
+  cell.guess = shape.guess;
+  cell.mostSteps = shape.badNormal ? 10 : 6;
+  cell.stop = options_.newtonStop / std::max({shape.lengthA, shape.lengthB, 1e-20F});
+  const CornerSquare& square = piece_->square;
+  cell.owner = owner();
+  cell.u = static_cast<float>(square.u + square.side * (part.u0 + part.u1) / 2);
+  cell.v = static_cast<float>(square.v + square.side * (part.v0 + part.v1) / 2);
+  cell.side = {static_cast<float>(square.side * (part.u1 - part.u0) / 2),
+               static_cast<float>(square.side * (part.v1 - part.v0) / 2)};
+  store_.bin(prism, cell.owner, store_.newton.size() - 1, CellKind::kNewton);
+}
+
+/// Returns false if polynomials are not precise enough.
+bool CellMaker::addPolynomialCell(const Shape& shape) {
+  const Prism prism = prismOf(shape, 0);
+  if (prism.box.empty()) return true;
+  PolynomialCell& cell = store_.polynomial.emplace_back();
+  cell.prism = prism;
+  if (!fitFoot(shape.c, {shape.alongA, shape.alongB, shape.normal}, cell)) {
+    store_.polynomial.pop_back();
+    return false;
+  }
+  store_.bin(prism, owner(), store_.polynomial.size() - 1, CellKind::kPolynomial);
+  return true;
+}
+
+}  // namespace vox

@@ -1,0 +1,50 @@
+// Cells sorted by the bins that they reach.
+
+#include "libvox/foot/foot_bins.h"
+
+#include "libvox/core/parallel.h"
+
+#include <tuple>
+#include <utility>
+
+namespace vox {
+namespace {
+
+constexpr int kPageLog2 = 2;  // bins along a page
+
+auto orderOf(const BinnedCell& cell) {
+  const openvdb::Coord page = cell.bin >> kPageLog2;
+  return std::make_tuple(page.x(), page.y(), page.z(), cell.bin.x(), cell.bin.y(), cell.bin.z(),
+                         cell.owner, cell.kind, cell.cell);
+}
+
+}  // namespace
+
+void CellStore::bin(const Prism& prism, std::uint32_t owner, std::size_t cell, CellKind kind) {
+  const openvdb::CoordBBox bins(prism.box.min() >> kBinLog2, prism.box.max() >> kBinLog2);
+  const auto enter = [&](const openvdb::Coord& at) {
+    binned.push_back({at, owner, static_cast<std::uint32_t>(cell), number, kind});
+  };
+  if (onlyBins == nullptr) {
+    for (auto at = bins.begin(); at; ++at) enter(*at);
+    return;
+  }
+  for (const openvdb::Coord& at : *onlyBins)
+    if (bins.isInside(at)) enter(at);
+}
+
+FootBins::FootBins(std::vector<const CellStore*> stores) : stores_(std::move(stores)) {
+  std::size_t count = 0;
+  for (const CellStore* store : stores_) count += store->binned.size();
+  cells_.reserve(count);
+  for (const CellStore* store : stores_)
+    cells_.insert(cells_.end(), store->binned.begin(), store->binned.end());
+  parallelSort(cells_, [](const BinnedCell& a, const BinnedCell& b) {
+    return orderOf(a) < orderOf(b);
+  });
+  for (std::size_t i = 0; i < cells_.size(); ++i)
+    if (i == 0 || cells_[i].bin != cells_[i - 1].bin) begin_.push_back(i);
+  begin_.push_back(cells_.size());
+}
+
+}  // namespace vox

@@ -1,0 +1,98 @@
+// The nearest foot of given voxels, bin by bin.
+
+#include "libvox/foot/nearest_feet.h"
+
+#include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/foot/scan_cell.h"
+#include "libvox/grid/openvdb.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <bit>
+#include <cmath>
+#include <memory>
+
+namespace vox {
+namespace {
+
+/// The nearest feet so far of the voxels of a bin.
+class FeetOfBin {
+ public:
+  /// Takes the wanted voxels of the bin.
+  /// @return whether there are any
+  bool begin(const openvdb::MaskTree& voxels, const openvdb::Coord& binOrigin) {
+    bool any = false;
+    for (unsigned number = 0; number < FootBrick::kLeaves; ++number) {
+      const auto* leaf = voxels.probeConstLeaf(FootBrick::leafOrigin(binOrigin, number));
+      for (unsigned x = 0; x < 8; ++x)
+        wanted_[number][x] = leaf == nullptr ? 0 : leaf->getValueMask().getWord<openvdb::Index64>(x);
+      any |= leaf != nullptr;
+      leaves_[number].found = {};
+    }
+    return any;
+  }
+
+  const BinMask& wanted() const { return wanted_; }
+
+  void keepNearest(const Feet& feet, const BinnedCell& cell) {
+    for (std::size_t i = 0; i < feet.count; ++i) {
+      const auto x = static_cast<unsigned>(feet.x[i]), y = static_cast<unsigned>(feet.y[i]),
+                 z = static_cast<unsigned>(feet.z[i]);
+      LeafFeet& leaf = leaves_[leafOf(x, y, z)];
+      const unsigned voxel = voxelInLeaf(x, y, z);
+      const std::uint64_t bit = std::uint64_t{1} << (voxel & 63U);
+      std::uint64_t& found = leaf.found[voxel >> 6];
+      if ((found & bit) != 0 && keyOf(leaf.distance[voxel]) <= keyOf(feet.t[i])) continue;
+      found |= bit;
+      leaf.distance[voxel] = feet.t[i];
+      leaf.place[voxel] = {&cell, feet.a[i], feet.b[i]};
+    }
+  }
+
+  /// Calls visit(number of the leaf, feet) for leaves in which feet were found.
+  template <class Visit>
+  void forEachLeaf(Visit&& visit) const {
+    for (unsigned number = 0; number < FootBrick::kLeaves; ++number) {
+      const LeafFeet& leaf = leaves_[number];
+      std::uint64_t any = 0;
+      for (const std::uint64_t word : leaf.found) any |= word;
+      if (any != 0) visit(number, leaf);
+    }
+  }
+
+ private:
+  BinMask wanted_;
+  std::array<LeafFeet, FootBrick::kLeaves> leaves_;
+};
+
+struct FeetWork {
+  FeetOfBin nearest;
+  Feet feet;
+};
+
+}  // namespace
+
+void forEachFoot(const FootBins& bins, const openvdb::MaskTree& voxels, Progress& progress,
+                 const std::function<void(const openvdb::Coord&, const LeafFeet&)>& visit) {
+  tbb::enumerable_thread_specific<std::unique_ptr<FeetWork>> works(
+      [] { return std::make_unique<FeetWork>(); });
+  parallelForEach(bins.count(), 1, [&](std::size_t bin) {
+    progress.check();
+    FeetWork& work = *works.local();
+    const openvdb::Coord origin = bins.originOf(bin);
+    if (!work.nearest.begin(voxels, origin)) return;
+    for (const BinnedCell& cell : bins.cellsOf(bin)) {
+      const auto keep = [&](const Feet& feet) { work.nearest.keepNearest(feet, cell); };
+      if (cell.kind == CellKind::kTriangle)
+        scanFeet(bins.triangle(cell), origin, &work.nearest.wanted(), work.feet, keep);
+      else
+        scanFeet(bins.newton(cell), origin, &work.nearest.wanted(), work.feet, keep);
+    }
+    work.nearest.forEachLeaf([&](unsigned number, const LeafFeet& feet) {
+      visit(FootBrick::leafOrigin(origin, number), feet);
+    });
+  });
+}
+
+}  // namespace vox

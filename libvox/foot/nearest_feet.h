@@ -1,0 +1,46 @@
+#pragma once
+
+#include "libvox/foot/foot_bins.h"
+#include "libvox/foot/leaf_flood.h"
+#include "libvox/grid/openvdb_fwd.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <functional>
+
+namespace vox {
+
+class Progress;
+
+/// The place of a foot: a cell, and its parameters there.
+struct FootPlace {
+  const BinnedCell* cell;
+  float a, b;
+};
+
+/// The nearest feet of some voxels of a leaf.
+struct LeafFeet {
+  LeafBits found;                    ///< voxels with a foot
+  std::array<float, 512> distance;   ///< voxels; negative on the inner side
+  std::array<FootPlace, 512> place;  ///< in OpenVDB's order of voxels
+
+  /// Calls visit(number of the voxel in the leaf) for each voxel with a foot.
+  template <class Visit>
+  void forEachFound(Visit&& visit) const {
+    for (unsigned x = 0; x < 8; ++x)
+      for (std::uint64_t left = found[x]; left != 0; left &= left - 1)
+        visit(x << 6 | static_cast<unsigned>(std::countr_zero(left)));
+  }
+};
+
+/// Calls visit(origin of the leaf, feet) for each leaf with voxels that have a foot within the reach
+/// of the cells; from any thread, once per leaf. Of equally near feet it is the one in the first
+/// cell of the bin, so the same for any number of threads.
+/// @param bins    without polynomial cells
+/// @param voxels  without tiles
+/// @throws Cancelled
+void forEachFoot(const FootBins& bins, const openvdb::MaskTree& voxels, Progress& progress,
+                 const std::function<void(const openvdb::Coord&, const LeafFeet&)>& visit);
+
+}  // namespace vox

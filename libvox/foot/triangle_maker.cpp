@@ -1,0 +1,139 @@
+// Triangles to cells, with the normals that tell the side of a point at edges and vertices:
+// Baerentzen & Aanaes, Signed distance computation using the angle weighted pseudonormal, 2005.
+
+#include "libvox/foot/triangle_maker.h"
+
+#include "libvox/core/parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace vox {
+namespace {
+
+constexpr float kMargin = 0.02F;  // voxels
+
+Float3 asFloats(const Vec3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+/// A corner and its edge to the next one, by the ends of the edge.
+struct EdgeOfCorner {
+  Index low, high, corner;
+  auto key() const { return std::make_tuple(low, high, corner); }
+};
+
+}  // namespace
+
+TriangleMaker::TriangleMaker(const PolygonMesh& mesh, float reach)
+    : mesh_(mesh),
+      reach_(reach),
+      normals_(mesh.faceCount(), Vec3d::Zero()),
+      vertexNormals_(mesh.points.size(), Vec3d::Zero()),
+      edgeNormals_(mesh.cornerCount(), Vec3d::Zero()),
+      turns_(mesh.points.size(), 0) {
+  std::vector<EdgeOfCorner> edges;
+  edges.reserve(mesh.cornerCount());
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto face = mesh.face(f);
+    const auto point = [&](std::size_t i) -> const Vec3d& { return mesh.points[face[i % 3]]; };
+    const Vec3d area = (point(1) - point(0)).cross(point(2) - point(0));
+    if (!(area.squaredNorm() > 0)) continue;
+    normals_[f] = area.stableNormalized();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3d a = point(i + 1) - point(i);
+      const Vec3d b = point(i + 2) - point(i);
+      vertexNormals_[face[i]] += std::atan2(a.cross(b).norm(), a.dot(b)) * normals_[f];
+      const Index v = face[i];
+      const Index w = face[(i + 1) % 3];
+      edges.push_back(
+          {std::min(v, w), std::max(v, w), mesh.faceOffsets[f] + static_cast<Index>(i)});
+    }
+  }
+  parallelSort(edges,
+               [](const EdgeOfCorner& a, const EdgeOfCorner& b) { return a.key() < b.key(); });
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    Vec3d sum = Vec3d::Zero();
+    for (; end < edges.size() && edges[end].low == edges[begin].low &&
+           edges[end].high == edges[begin].high;
+         ++end)
+      sum += normals_[edges[end].corner / 3];
+    for (std::size_t i = begin; i < end; ++i) edgeNormals_[edges[i].corner] = sum;
+  }
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+    for (const Index v : mesh.face(f)) {
+      // To the mean normal and on to another one: at most twice the turn.
+      const Vec3d mean = vertexNormals_[v].stableNormalized();
+      const double sine = normals_[f].cross(mean).norm();
+      const double turn = normals_[f].dot(mean) > 0.7 ? 2 * sine : 1;
+      turns_[v] = std::max(turns_[v], std::min(1.0, turn));
+    }
+}
+
+void TriangleMaker::add(Index begin, Index end, std::uint32_t firstOwner, CellStore& store) const {
+  for (Index f = begin; f != end; ++f)
+    if (!normals_[f].isZero(0)) addTriangle(f, firstOwner + f, store);
+}
+
+void TriangleMaker::addTriangle(Index f, std::uint32_t owner, CellStore& store) const {
+  const auto face = mesh_.face(f);
+  const auto& points = mesh_.points;
+  Prism prism;
+  for (int k = 0; k < 3; ++k) prism.origin[k] = static_cast<int>(std::lround(points[face[0]][k]));
+  const Vec3d origin(prism.origin.x(), prism.origin.y(), prism.origin.z());
+  std::array<Vec3d, 3> p;
+  double turn = 0;
+  bool open = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    p[i] = points[face[i]] - origin;
+    turn = std::max(turn, turns_[face[i]]);
+    // An edge of one triangle: what lies beyond it is nearest to it.
+    const Vec3d& sum = edgeNormals_[mesh_.faceOffsets[f] + static_cast<Index>(i)];
+    open |= sum.squaredNorm() < 1.5;
+  }
+  const double reach = double{reach_};
+  const double beyond = (open ? 1.0 : turn) * reach + double{kMargin};
+  // A frame along the longest side.
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if ((p[(i + 1) % 3] - p[i]).squaredNorm() > (p[(longest + 1) % 3] - p[longest]).squaredNorm())
+      longest = i;
+  const Vec3d& n = normals_[f];
+  const Vec3d u = (p[(longest + 1) % 3] - p[longest]).normalized();
+  const std::array<Vec3d, 3> axes = {u, n.cross(u), n};
+  Vec3d centre = Vec3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    double low = axes[k].dot(p[0]);
+    double high = low;
+    for (std::size_t i = 1; i < 3; ++i) {
+      low = std::min(low, axes[k].dot(p[i]));
+      high = std::max(high, axes[k].dot(p[i]));
+    }
+    const double margin = k == 2 ? reach + double{kMargin} : beyond;
+    centre += (low + high) / 2 * axes[k];
+    prism.normals[k] = asFloats(axes[k] / ((high - low) / 2 + margin));
+  }
+  prism.centre = asFloats(centre);
+  for (int k = 0; k < 3; ++k) {
+    const double margin = beyond + (reach + double{kMargin}) * std::abs(n[k]);
+    const auto [low, high] = std::minmax({p[0][k], p[1][k], p[2][k]});
+    prism.box.min()[k] = prism.origin[k] + static_cast<int>(std::ceil(low - margin));
+    prism.box.max()[k] = prism.origin[k] + static_cast<int>(std::floor(high + margin));
+  }
+  if (prism.box.empty()) return;
+  TriangleCell& cell = store.triangles.emplace_back();
+  cell.prism = prism;
+  cell.normal = asFloats(n);
+  for (std::size_t i = 0; i < 3; ++i) {
+    cell.points[i] = asFloats(p[i]);
+    cell.edgeNormals[i] = asFloats(edgeNormals_[mesh_.faceOffsets[f] + static_cast<Index>(i)]);
+    cell.vertexNormals[i] = asFloats(vertexNormals_[face[i]]);
+  }
+  store.bin(prism, owner, store.triangles.size() - 1, CellKind::kTriangle);
+}
+
+}  // namespace vox

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "libvox/core/types.h"
+
+#include <array>
+#include <cstdint>
+
+namespace vox {
+
+/// A square part of the unit square of a corner. The part of the limit surface that belongs to
+/// corner i of face f is a map of the unit square (u, v): (1, 1) is the limit point of f (its
+/// centroid), (0, 0) that of the vertex, (1, 0) and (0, 1) those of the edges from corner i to the
+/// next and from the previous corner to corner i. A piece with parameters (u', v') covers
+/// (u + side u', v + side v') of it.
+struct CornerSquare {
+  Index corner = kNone;  ///< of the base mesh
+  double u = 0, v = 0;
+  double side = 1;  ///< negative: turned by 180 degrees
+
+  /// The quarter with the parameters u' >= 1/2 if `highU`, else u' <= 1/2; v' likewise.
+  CornerSquare quarter(bool highU, bool highV) const {
+    const double half = side / 2;
+    return {corner, highU ? u + half : u, highV ? v + half : v, half};
+  }
+  /// The same square with both parameters running the other way.
+  CornerSquare turned() const { return {corner, u + side, v + side, -side}; }
+};
+
+/// Sides of a piece that lie on the boundary of the surface.
+enum BoundarySide : std::uint8_t { kSideU0 = 1, kSideU1 = 2, kSideV0 = 4, kSideV1 = 8 };
+
+/// A piece of the limit surface: a biquadratic B-spline with 3 x 3 control points, over the
+/// parameters 0 .. 1. u, v and the outward normal are right-handed.
+struct LimitPiece {
+  std::array<std::array<Vec3d, 3>, 3> points;  ///< [u][v], index space
+  std::uint8_t boundarySides = 0;              ///< a set of BoundarySide
+  CornerSquare square = {};
+};
+
+/// Receives the pieces of a limit surface.
+class LimitSink {
+ public:
+  virtual ~LimitSink() = default;
+  virtual void piece(const LimitPiece& piece) = 0;
+};
+
+}  // namespace vox

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "libvox/grid/openvdb_fwd.h"
+#include "libvox/mesh/limit_piece.h"
+
+namespace vox {
+
+/// Passes on the parts of a surface that have the outside on one side at least. Where surfaces
+/// overlap, the parts inside others are left out; pieces at the border are cut to less than a voxel.
+class ExposedPieces : public LimitSink {
+ public:
+  /// @param solid  voxels that surfaces cross or enclose
+  ExposedPieces(const openvdb::MaskTree& solid, LimitSink& next) : solid_(solid), next_(next) {}
+
+  void piece(const LimitPiece& piece) override;
+
+ private:
+  bool isExposed(const LimitPiece& piece, double u, double v) const;
+
+  const openvdb::MaskTree& solid_;
+  LimitSink& next_;
+};
+
+}  // namespace vox

@@ -1,0 +1,110 @@
+// Feet of the voxels of a surface, wherever they are.
+
+#include "libvox/pipeline/feet.h"
+
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
+#include "libvox/grid/openvdb.h"
+#include "libvox/pipeline/foot_cells.h"
+#include "libvox/voxelize/triangulate.h"
+
+#include <openvdb/tools/Prune.h>
+
+#include <algorithm>
+#include <array>
+
+namespace vox {
+namespace {
+
+/// A voxel that a surface crosses is nearer than sqrt(3) / 2; a vertex that switched it on may lie a
+/// little off the limit surface.
+constexpr float kFirstReach = 1.25F;
+constexpr float kMoreReach = 4;     // times as far in the next pass
+constexpr float kMostReach = 4000;  // voxels
+
+FootSurfaces::Flat flatTriangles(const PolygonMesh& mesh) {
+  FootSurfaces::Flat flat;
+  flat.triangles.points = mesh.points;
+  FaceTriangulator triangulator;
+  std::vector<std::array<Index, 3>> triangles;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    triangles.clear();
+    triangulator.add(mesh, f, triangles);
+    const auto face = mesh.face(f);
+    for (const auto& triangle : triangles) {
+      flat.triangles.addFace(triangle);
+      flat.faces.push_back(f);
+      for (const Index v : triangle) {
+        const auto at = std::find(face.begin(), face.end(), v) - face.begin();
+        flat.corners.push_back(mesh.faceOffsets[f] + static_cast<Index>(at));
+      }
+    }
+  }
+  return flat;
+}
+
+/// The bins that hold some voxels.
+std::vector<openvdb::Coord> binsOf(const openvdb::MaskTree& voxels) {
+  std::vector<openvdb::Coord> bins;
+  for (auto leaf = voxels.cbeginLeaf(); leaf; ++leaf)
+    if (!leaf->isEmpty()) bins.push_back(leaf->origin() >> kBinLog2);
+  std::sort(bins.begin(), bins.end());
+  bins.erase(std::unique(bins.begin(), bins.end()), bins.end());
+  return bins;
+}
+
+/// Removes the voxels of a leaf that have a foot.
+void removeFound(const openvdb::Coord& origin, const LeafFeet& feet, openvdb::MaskTree& left) {
+  auto* leaf = left.probeLeaf(origin);
+  auto mask = leaf->getValueMask();
+  for (openvdb::Index x = 0; x < 8; ++x)
+    mask.getWord<openvdb::Index64>(x) &= ~feet.found[x];
+  leaf->setValueMask(mask);
+}
+
+}  // namespace
+
+std::size_t FootSurfaces::surfaceOf(std::uint32_t owner) const {
+  const auto next = std::upper_bound(firstOwner.begin(), firstOwner.end(), owner);
+  return static_cast<std::size_t>(next - firstOwner.begin()) - 1;
+}
+
+FootSurfaces footSurfaces(std::span<const PreparedSurface> surfaces) {
+  FootSurfaces all{surfaces, {}, {}};
+  std::uint32_t owner = 0;
+  for (const PreparedSurface& surface : surfaces) {
+    const bool flat = levelOf(surface.way) == 0;
+    all.flat.push_back(flat ? flatTriangles(surface.base.mesh) : FootSurfaces::Flat{});
+    all.firstOwner.push_back(owner);
+    owner += flat ? all.flat.back().triangles.faceCount() : surface.base.mesh.cornerCount();
+  }
+  return all;
+}
+
+void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
+               const SurfaceOptions& options, const MemoryBudget& budget, Progress& progress,
+               const VisitFeet& visit) {
+  openvdb::MaskTree left(voxels);
+  for (float reach = kFirstReach; reach <= kMostReach && !left.empty(); reach *= kMoreReach) {
+    const CellOptions cellOptions{.reach = reach, .polynomials = false, .newtonStop = 0.02F};
+    FootCells cells(cellOptions, reach > kFirstReach ? binsOf(left) : std::vector<openvdb::Coord>{});
+    for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {
+      const FootSurfaces::Flat& flat = surfaces.flat[s];
+      if (flat.triangles.faceCount() > 0)
+        cells.addTriangles(flat.triangles, progress);
+      else
+        cells.addLimitSurface(surfaces.surfaces[s].base, {}, options, {}, progress);
+    }
+    budget.require(cells.bytes(), "the cells of the surface",
+                   "use larger voxels, or raise --max-memory");
+    const FootBins bins = cells.bins();
+    forEachFoot(bins, left, progress,
+                [&](const openvdb::Coord& origin, const LeafFeet& feet) {
+                  visit(bins, origin, feet);
+                  removeFound(origin, feet, left);
+                });
+    openvdb::tools::pruneInactive(left);
+  }
+}
+
+}  // namespace vox

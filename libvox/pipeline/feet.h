@@ -1,0 +1,48 @@
+#pragma once
+
+#include "libvox/foot/nearest_feet.h"
+#include "libvox/options/surface_options.h"
+#include "libvox/pipeline/prepared_surface.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+class MemoryBudget;
+class Progress;
+
+/// The surfaces from which feet come: limit surfaces, or the polygons of objects that are not
+/// smoothed. Cells have owners (foot/cell.h).
+struct FootSurfaces {
+  std::span<const PreparedSurface> surfaces;
+  /// Of each surface: its triangles if it is not smoothed, with the corners of the base mesh in the
+  /// order of the triangles' corners.
+  struct Flat {
+    PolygonMesh triangles;
+    std::vector<Index> corners;
+    std::vector<Index> faces;  ///< of the base mesh, one per triangle
+  };
+  std::vector<Flat> flat;
+  std::vector<std::uint32_t> firstOwner;  ///< of the cells of each surface
+
+  /// The surface of a cell.
+  std::size_t surfaceOf(std::uint32_t owner) const;
+};
+
+/// Calls visit(bins, origin of a leaf, feet) until every voxel had a foot, if it has one at all:
+/// first near the surface, then, for voxels that are left over, farther and farther away. From any
+/// thread; twice for a leaf only if other voxels have a foot.
+/// @param voxels  without tiles
+/// @throws LimitError
+/// @throws Cancelled
+using VisitFeet = std::function<void(const FootBins&, const openvdb::Coord&, const LeafFeet&)>;
+void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
+               const SurfaceOptions& options, const MemoryBudget& budget, Progress& progress,
+               const VisitFeet& visit);
+
+/// Collects the surfaces of feet.
+FootSurfaces footSurfaces(std::span<const PreparedSurface> surfaces);
+
+}  // namespace vox

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "libvox/subdivide/level.h"
+
+#include <optional>
+
+namespace vox {
+
+/// Some thousands of polygons near the smooth surface, for estimates. If `levels` is set: of that
+/// level, or of an earlier one. A mesh of more polygons is returned as it is.
+PolygonMesh fewPolygons(const SubdivisionLevel& base, std::optional<int> levels);
+
+}  // namespace vox

@@ -1,0 +1,103 @@
+// Submeshes as tasks that make cells.
+
+#include "libvox/pipeline/foot_cells.h"
+
+#include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/foot/triangle_maker.h"
+#include "libvox/localize/partition.h"
+#include "libvox/subdivide/limit_walk.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace vox {
+namespace {
+
+/// What one thread needs to make cells of pieces.
+struct CellWalk {
+  LimitWalk walk;
+  CellMaker maker;
+  std::unique_ptr<LimitSink> filter;
+  std::vector<Index> faces;
+
+  CellWalk(const SubdivisionLevel& base, const CellOptions& options, std::uint32_t firstOwner,
+           CellStore& store, const PieceFilter& makeFilter)
+      : walk(base), maker(options, firstOwner, store) {
+    if (makeFilter) filter = makeFilter(maker);
+  }
+  LimitSink& sink() { return filter ? *filter : maker; }
+};
+
+}  // namespace
+
+CellStore& FootCells::newStore() {
+  const std::scoped_lock lock(mutex_);
+  if (stores_.size() > std::numeric_limits<std::uint16_t>::max())
+    throw LimitError("there are too many objects for one grid");
+  CellStore& store = stores_.emplace_back();
+  store.number = static_cast<std::uint16_t>(stores_.size() - 1);
+  if (!onlyBins_.empty()) store.onlyBins = &onlyBins_;
+  return store;
+}
+
+void FootCells::takeOwners(std::uint64_t count) {
+  if (firstOwner_ + count > std::numeric_limits<std::uint32_t>::max())
+    throw LimitError("the meshes together have too many corners for one grid");
+  firstOwner_ += static_cast<std::uint32_t>(count);
+}
+
+void FootCells::addLimitSurface(const SubdivisionLevel& base, const std::vector<Index>& faces,
+                                const SurfaceOptions& options, const PieceFilter& filter,
+                                Progress& progress) {
+  const std::uint32_t firstOwner = firstOwner_;
+  takeOwners(base.mesh.cornerCount());
+  const Partition partition = coverGreedily(base.mesh, base.adjacency, options.submeshFaces);
+  tbb::enumerable_thread_specific<std::unique_ptr<CellWalk>> walks([&] {
+    return std::make_unique<CellWalk>(base, options_, firstOwner, newStore(), filter);
+  });
+  parallelForEach(partition.size(), 1, [&](Index s) {
+    progress.check();
+    CellWalk& walk = *walks.local();
+    if (faces.empty()) return walk.walk.emit(partition.submesh(s), walk.sink());
+    walk.faces.clear();
+    for (const Index f : partition.submesh(s))
+      if (std::binary_search(faces.begin(), faces.end(), f)) walk.faces.push_back(f);
+    if (!walk.faces.empty()) walk.walk.emit(walk.faces, walk.sink());
+  });
+}
+
+void FootCells::addTriangles(const PolygonMesh& triangles, Progress& progress) {
+  constexpr std::size_t kTrianglesPerTask = 1024;
+  const std::uint32_t firstOwner = firstOwner_;
+  takeOwners(triangles.faceCount());
+  const TriangleMaker maker(triangles, options_.reach);
+  tbb::enumerable_thread_specific<CellStore*> stores([&] { return &newStore(); });
+  parallelForRanges(triangles.faceCount(), kTrianglesPerTask,
+                    [&](std::size_t begin, std::size_t end) {
+                      progress.check();
+                      maker.add(static_cast<Index>(begin), static_cast<Index>(end), firstOwner,
+                                *stores.local());
+                    });
+}
+
+std::uint64_t FootCells::bytes() const {
+  std::uint64_t bytes = 0;
+  for (const CellStore& store : stores_)
+    bytes += store.newton.size() * sizeof(NewtonCell) +
+             store.polynomial.size() * sizeof(PolynomialCell) +
+             store.triangles.size() * sizeof(TriangleCell) +
+             2 * store.binned.size() * sizeof(BinnedCell);
+  return bytes;
+}
+
+FootBins FootCells::bins() const {
+  std::vector<const CellStore*> stores;
+  for (const CellStore& store : stores_) stores.push_back(&store);
+  return FootBins(std::move(stores));
+}
+
+}  // namespace vox

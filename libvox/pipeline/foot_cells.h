@@ -1,0 +1,63 @@
+#pragma once
+
+#include "libvox/foot/cell_maker.h"
+#include "libvox/foot/foot_bins.h"
+#include "libvox/options/surface_options.h"
+#include "libvox/pipeline/prepared_surface.h"
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace vox {
+
+class Progress;
+
+/// Wraps a sink of one thread, so that only some pieces, or parts of them, reach it.
+using PieceFilter = std::function<std::unique_ptr<LimitSink>(LimitSink& cells)>;
+
+/// The cells of some surfaces (foot/cell.h).
+class FootCells {
+ public:
+  explicit FootCells(const CellOptions& options) : options_(options) {}
+  /// @param onlyBins  bins of interest; empty: all
+  FootCells(const CellOptions& options, std::vector<openvdb::Coord> onlyBins)
+      : options_(options), onlyBins_(std::move(onlyBins)) {}
+  FootCells(const FootCells&) = delete;
+  FootCells& operator=(const FootCells&) = delete;
+
+  /// Adds the limit surface of some faces of a base level. The cells have the owners firstOwner() +
+  /// number of the corner.
+  /// @param faces   ascending; empty: all
+  /// @param filter  may be empty
+  /// @throws LimitError  coordinates are out of range, or there are too many corners
+  /// @throws Cancelled
+  void addLimitSurface(const SubdivisionLevel& base, const std::vector<Index>& faces,
+                       const SurfaceOptions& options, const PieceFilter& filter,
+                       Progress& progress);
+  /// Adds the triangles of a mesh. The cells have the owners firstOwner() + number of the triangle.
+  void addTriangles(const PolygonMesh& triangles, Progress& progress);
+
+  /// Owner of the first cell that will be added.
+  std::uint32_t firstOwner() const { return firstOwner_; }
+  /// Bytes of the cells and of their bins.
+  std::uint64_t bytes() const;
+  /// The cells sorted by bins. Valid as long as this object is not changed.
+  FootBins bins() const;
+
+ private:
+  CellStore& newStore();
+  void takeOwners(std::uint64_t count);
+
+  CellOptions options_;
+  std::vector<openvdb::Coord> onlyBins_;
+  std::uint32_t firstOwner_ = 0;
+  std::deque<CellStore> stores_;
+  std::mutex mutex_;  // guards stores_ while cells are made
+};
+
+}  // namespace vox

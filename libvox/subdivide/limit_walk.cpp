@@ -1,0 +1,376 @@
+// The limit surface as pieces: regular vertices, rings around extraordinary faces, and what closes
+// the rings.
+
+#include "libvox/subdivide/limit_walk.h"
+
+#include "libvox/mesh/chaikin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace vox {
+namespace {
+
+/// Mean of the points of a face.
+Vec3d centroidOf(std::span<const Vec3d> points) {
+  Vec3d sum = Vec3d::Zero();
+  for (const Vec3d& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+/// The fourth corner of a quad with a given centroid.
+Vec3d fourthCorner(const Vec3d& centroid, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  return 4.0 * centroid - a - b - c;
+}
+
+/// Bound of the distance, along the normal, between the surface and a piece that treats a face as a
+/// quad. It follows from how much the next vertex in the face differs from the one in the quad.
+/// @param inF    whether the face is the one at u = v = 1, else the one at u = v = 0
+/// @param image  the next vertex in the face
+double errorAsQuad(const Patch& patch, bool inF, const Vec3d& image) {
+  constexpr double kPerDifference = 0.6;
+  const auto& p = patch.points;
+  const Vec3d& far = inF ? p[2][2] : p[0][0];
+  const Vec3d& a = inF ? p[2][1] : p[0][1];
+  const Vec3d& b = inF ? p[1][2] : p[1][0];
+  const Vec3d difference = image - quadImage(p[1][1], a, b, far);
+  const auto along = [&](const Vec3d& n) {
+    const double size = n.norm();
+    return size > 0 ? std::abs(n.dot(difference)) / size : difference.norm();
+  };
+  // The normal at the vertex alone would pass a flat face on a curved surface.
+  const Vec3d atVertex = (p[2][1] - p[0][1]).cross(p[1][2] - p[1][0]);
+  const Vec3d atFace = (far - p[1][1]).cross(b - a);
+  return kPerDifference * std::max(along(atVertex), along(atFace));
+}
+
+/// Emits a curve of the surface as a piece without width.
+void emitCurve(const CurvePoints& curve, const CornerSquare& square, LimitSink& sink) {
+  sink.piece({{curve, curve, curve}, kSideU0 | kSideU1 | kSideV0 | kSideV1, square});
+}
+
+/// Emits the piece of a regular vertex. If faces around the vertex are missing: the curves between
+/// those that exist, to which its descendants converge.
+void emitPiece(const Patch& patch, std::uint8_t sides, const CornerSquare& square,
+               LimitSink& sink) {
+  if (patch.quadrants == kAllQuadrants) return sink.piece({patch.points, sides, square});
+  const auto& p = patch.points;
+  const auto has = [&](unsigned quadrants) { return (patch.quadrants & quadrants) == quadrants; };
+  const auto emitRows = [&](std::size_t i, std::size_t j) {
+    emitCurve({middle(p[i][0], p[j][0]), middle(p[i][1], p[j][1]), middle(p[i][2], p[j][2])},
+              square, sink);
+  };
+  const auto emitColumns = [&](std::size_t i, std::size_t j) {
+    emitCurve({middle(p[0][i], p[0][j]), middle(p[1][i], p[1][j]), middle(p[2][i], p[2][j])},
+              square, sink);
+  };
+  if (has(1U | 2U)) emitRows(0, 1);
+  if (has(4U | 8U)) emitRows(1, 2);
+  if (has(1U | 4U)) emitColumns(0, 1);
+  if (has(2U | 8U)) emitColumns(1, 2);
+  if (patch.quadrants == 8U) {
+    const Vec3d centre = middle(middle(p[1][1], p[2][2]), middle(p[1][2], p[2][1]));
+    emitCurve({centre, centre, centre}, square, sink);
+  }
+}
+
+std::uint8_t only(std::uint8_t sides, unsigned mask) {
+  return static_cast<std::uint8_t>(sides & mask);
+}
+
+}  // namespace
+
+void LimitWalk::emit(std::span<const Index> faces, LimitSink& sink) {
+  images_.set(faces);
+  const std::size_t points = images_.vFacePoints().size();
+  vFaceKnown_.assign(images_.vFaces().size(), false);
+  vFaceActive_.assign(points, false);
+  for (auto* of : {&vFaceImages_, &vFaceNear_, &vFaceFar_, &vFaceCorner_}) of->resize(points);
+  vFaceSquares_.resize(points);
+  Index slot = 0;
+  for (const Index f : faces) {
+    emitFace(f, slot, sink);
+    slot += images_.base().mesh.faceSize(f);
+  }
+  emitVFaces(sink);
+}
+
+void LimitWalk::emitFace(Index face, Index firstSlot, LimitSink& sink) {
+  const Index size = images_.base().mesh.faceSize(face);
+  const Index firstNumber = images_.base().mesh.faceOffsets[face];
+  const auto points = images_.imagesOfFace(firstSlot, size);
+  facePoints_.resize(size);
+  bool known = false;
+  const auto subdivideFace = [&] {
+    if (!known) faceImages_.of(points, facePoints_);
+    known = true;
+  };
+  if (size != 4) subdivideFace();
+  joined_ = false;
+  for (Index i = 0; i < size; ++i) {
+    const Corner at{firstSlot, i, size, firstNumber + i};
+    const Patch patch = patchAt(at);
+    const Index vFaceSize = images_.vFace(at.slot()).size;
+    bool fine = size == 4 || errorAsQuad(patch, true, facePoints_[i]) <= tolerance_;
+    if (fine && hasVFace(at) && vFaceSize != 4) {
+      const Index number = images_.vFaceNumber(at.slot());
+      subdivideVFace(number);
+      fine = vFaceSize > 1 &&
+             errorAsQuad(patch, false,
+                         vFaceImages_[images_.vFaces()[number].begin +
+                                      images_.placeInVFace(at.slot())]) <= tolerance_;
+    }
+    if (fine) {
+      emitPiece(patch, boundarySidesAt(at), at.square(), sink);
+      continue;
+    }
+    subdivideFace();
+    split(at, sink);
+  }
+  if (joined_) emitAround(around_, sink);
+}
+
+bool LimitWalk::hasVFace(const Corner& at) const {
+  return images_.vFace(at.slot()).closed || images_.extends();
+}
+
+/// The patch of a level-1 vertex. Faces around it that are not quads are treated as quads.
+Patch LimitWalk::patchAt(const Corner& at) const {
+  const LocalImages::VFace& vFace = images_.vFace(at.slot());
+  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
+  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
+  const Vec3d& centre = images_.image(at.slot());
+  const Vec3d& next = images_.image(at.next());
+  const Vec3d& previous = images_.image(at.previous());
+  const Vec3d opposite =
+      at.size == 4 ? images_.image(at.opposite())
+                   : fourthCorner(centroidOf(images_.imagesOfFace(at.first, at.size)), centre,
+                                  next, previous);
+  const auto vFacePoints = std::span(images_.vFacePoints()).subspan(vFace.begin, vFace.size);
+  Vec3d beyond = centre;
+  if (hasVFace(at) && vFace.size == 4)
+    beyond = vFacePoints[images_.placeInVFace(at.slot()) ^ 2U];
+  else if (hasVFace(at) && vFace.size > 1)
+    beyond = fourthCorner(centroidOf(vFacePoints), centre, left.near, right.near);
+  const unsigned quadrants = 8U | (right.exists ? 4U : 0U) | (left.exists ? 2U : 0U) |
+                             (hasVFace(at) ? 1U : 0U);
+  return {{{{beyond, left.far, left.near},
+            {right.near, centre, previous},
+            {right.far, next, opposite}}},
+          static_cast<std::uint8_t>(quadrants)};
+}
+
+std::uint8_t LimitWalk::boundarySidesAt(const Corner& at) const {
+  if (images_.vFace(at.slot()).closed) return 0;
+  unsigned sides = 0;
+  if (!images_.edgeFace(at.slot()).interior) sides |= kSideV0;
+  if (!images_.edgeFace(at.previous()).interior) sides |= kSideU0;
+  return static_cast<std::uint8_t>(sides);
+}
+
+void LimitWalk::subdivideVFace(Index number) {
+  if (vFaceKnown_[number]) return;
+  const LocalImages::VFace& vFace = images_.vFaces()[number];
+  if (vFace.size > 1)
+    faceImages_.of(std::span(images_.vFacePoints()).subspan(vFace.begin, vFace.size),
+                   std::span(vFaceImages_).subspan(vFace.begin, vFace.size));
+  vFaceKnown_[number] = true;
+}
+
+/// One step at a level-1 vertex. Emits the children that are regular; the others become active
+/// corners of the face or the V-face in which they lie.
+void LimitWalk::split(const Corner& at, LimitSink& sink) {
+  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
+  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
+  const LocalImages::VFace& vFace = images_.vFace(at.slot());
+  const Vec3d& centre = images_.image(at.slot());
+  VertexSplit split;
+  split.f0 = facePoints_[at.place];
+  split.fNext = facePoints_[at.next() - at.first];
+  split.fPrevious = facePoints_[at.previous() - at.first];
+  if (at.size == 4) split.fOpposite = facePoints_[at.opposite() - at.first];
+  split.r = quadImages(centre, images_.image(at.next()), right.far, right.near);
+  split.l = quadImages(centre, images_.image(at.previous()), left.near, left.far);
+  split.hasR = right.exists;
+  split.hasL = left.exists;
+  splitInVFace(at, split);
+
+  const std::uint8_t sides = boundarySidesAt(at);
+  if (split.hasR)
+    emitPiece(split.childInR(), only(sides, kSideV0), at.square().quarter(true, false), sink);
+  if (split.hasL)
+    emitPiece(split.childInL(), only(sides, kSideU0), at.square().quarter(false, true), sink);
+  if (at.size == 4)
+    emitPiece(split.childInF(), 0, at.square().quarter(true, true), sink);
+  else
+    joinFace(at, split);
+  if (!split.hasVFace) return;
+  const CornerSquare inVFace = at.square().quarter(false, false);
+  if (vFace.size == 4) {
+    emitPiece(split.childInVFace(), sides, inVFace, sink);
+  } else if (vFace.size > 1) {
+    joinVFace(at, split);
+  } else {
+    const TriangleImages t(centre, vFace.mStart, vFace.mEnd);
+    emitBoundaryCorner({split.vFace0, t.mStart, t.mEnd, split.r[0], middle(split.r[0], split.r[3]),
+                        split.l[0], middle(split.l[0], split.l[3]), split.f0},
+                       inVFace, sink);
+  }
+}
+
+/// Sets the images in the V-face.
+void LimitWalk::splitInVFace(const Corner& at, VertexSplit& split) {
+  split.hasVFace = hasVFace(at);
+  if (!split.hasVFace) return;
+  const Index number = images_.vFaceNumber(at.slot());
+  const LocalImages::VFace& vFace = images_.vFaces()[number];
+  if (vFace.size == 1)
+    return TriangleImages(images_.image(at.slot()), vFace.mStart, vFace.mEnd).setVFace(split);
+  subdivideVFace(number);
+  const Index place = images_.placeInVFace(at.slot());
+  split.vFace0 = vFaceImages_[vFace.begin + place];
+  split.vFaceRight = vFaceImages_[vFace.before(place)];
+  split.vFaceLeft = vFaceImages_[vFace.after(place)];
+  if (vFace.size == 4) split.vFaceOpposite = vFaceImages_[vFace.begin + (place ^ 2U)];
+}
+
+/// Makes the corner an active corner of its face at level 2.
+void LimitWalk::joinFace(const Corner& at, const VertexSplit& split) {
+  if (!joined_) {
+    around_.reset(at.size);
+    around_.inner = facePoints_;
+    squares_.resize(at.size);
+    joined_ = true;
+  }
+  const std::size_t i = at.place;
+  const std::size_t j = at.previous() - at.first;
+  around_.near[i] = split.r[0];
+  around_.far[i] = split.r[1];
+  around_.near[j] = split.l[1];
+  around_.far[j] = split.l[0];
+  around_.corner[i] = split.vFace0;
+  around_.hasEdge[i] = split.hasR;
+  around_.hasEdge[j] = split.hasL;
+  around_.hasCorner[i] = split.hasR && split.hasL && split.hasVFace;
+  around_.active[i] = true;
+  squares_[i] = at.square().quarter(true, true);
+}
+
+/// Makes the corner an active corner of its V-face at level 2. In the V-face the next corner lies
+/// across L, so parameters run the other way.
+void LimitWalk::joinVFace(const Corner& at, const VertexSplit& split) {
+  const LocalImages::VFace& vFace = images_.vFace(at.slot());
+  const Index place = images_.placeInVFace(at.slot());
+  const Index i = vFace.begin + place;
+  const Index j = vFace.before(place);
+  vFaceNear_[i] = split.l[0];
+  vFaceFar_[i] = split.l[3];
+  vFaceNear_[j] = split.r[3];
+  vFaceFar_[j] = split.r[0];
+  vFaceCorner_[i] = split.f0;
+  vFaceActive_[i] = true;
+  vFaceSquares_[i] = at.square().quarter(false, false).turned();
+}
+
+void LimitWalk::emitVFaces(LimitSink& sink) {
+  for (const LocalImages::VFace& vFace : images_.vFaces()) {
+    const auto copy = [&](const auto& all, auto& part) {
+      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(vFace.begin);
+      part.assign(begin, begin + static_cast<std::ptrdiff_t>(vFace.size));
+    };
+    vFace_.reset(vFace.size);
+    copy(vFaceActive_, vFace_.active);
+    if (std::find(vFace_.active.begin(), vFace_.active.end(), true) == vFace_.active.end())
+      continue;
+    copy(vFaceImages_, vFace_.inner);
+    copy(vFaceNear_, vFace_.near);
+    copy(vFaceFar_, vFace_.far);
+    copy(vFaceCorner_, vFace_.corner);
+    copy(vFaceSquares_, squares_);
+    vFace_.real = vFace.fan;
+    emitAround(vFace_, sink);
+  }
+}
+
+/// Emits the surface at the active corners of an extraordinary face of level 2 or more. `squares_`
+/// has the squares of these corners.
+void LimitWalk::emitAround(ExtraordinaryFace& face, LimitSink& sink) {
+  const std::size_t n = face.inner.size();
+  next_ = face;
+  innerImages_.resize(n);
+  std::vector<CornerSquare>& squares = squares_;
+  for (int level = 2;; ++level) {
+    requireLevelInRange(level);
+    faceImages_.of(face.inner, innerImages_);
+    const Vec3d centroid = centroidOf(face.inner);
+    const auto asQuad = [&](std::size_t i) -> Patch {
+      const std::size_t j = face.before(i), k = face.after(i);
+      const unsigned quadrants = 8U | (face.hasEdge[i] ? 4U : 0U) | (face.hasEdge[j] ? 2U : 0U) |
+                                 (face.hasCorner[i] ? 1U : 0U);
+      return {{{{face.corner[i], face.far[j], face.near[j]},
+                {face.near[i], face.inner[i], face.inner[j]},
+                {face.far[i], face.inner[k],
+                 fourthCorner(centroid, face.inner[i], face.inner[k], face.inner[j])}}},
+              static_cast<std::uint8_t>(quadrants)};
+    };
+    bool fine = true;
+    for (std::size_t i = 0; fine && i < n; ++i)
+      if (face.active[i]) fine = errorAsQuad(asQuad(i), true, innerImages_[i]) <= tolerance_;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!face.active[i]) continue;
+      std::uint8_t sides = 0;
+      if (face.mirrored() && i + 1 == face.real) sides |= kSideU1;
+      if (face.mirrored() && i == 0) sides |= kSideV1;
+      if (fine) {
+        emitPiece(asQuad(i), sides, squares[i], sink);
+        continue;
+      }
+      const std::size_t j = face.before(i);
+      const VertexSplit split = face.splitAt(innerImages_, i);
+      if (split.hasR)
+        emitPiece(split.childInR(), only(sides, kSideU1), squares[i].quarter(true, false), sink);
+      if (split.hasL)
+        emitPiece(split.childInL(), only(sides, kSideV1), squares[i].quarter(false, true), sink);
+      if (split.hasVFace)
+        emitPiece(split.childInVFace(), 0, squares[i].quarter(false, false), sink);
+      squares[i] = squares[i].quarter(true, true);
+      next_.near[i] = split.r[0];
+      next_.far[i] = split.r[1];
+      next_.near[j] = split.l[1];
+      next_.far[j] = split.l[0];
+      next_.corner[i] = split.vFace0;
+    }
+    if (fine) return;
+    next_.inner = innerImages_;
+    std::swap(face, next_);
+  }
+}
+
+/// Emits the surface at a vertex in the triangle that a boundary vertex with one face makes. The
+/// rest is closed by a piece that treats the triangle as a quad with the vertex at two corners.
+void LimitWalk::emitBoundaryCorner(BoundaryCorner at, CornerSquare square, LimitSink& sink) {
+  constexpr double kPerDifference = 0.6;
+  constexpr double kSmall = 0.005;  // voxels
+  for (int level = 2;; ++level) {
+    requireLevelInRange(level);
+    const Vec3d difference = (at.u - middle(at.mStart, at.mEnd)) / 4.0;
+    const Vec3d normal = (at.right - at.u).cross(at.left - at.u);
+    const double size = normal.norm();
+    const double error = size > 0 ? std::abs(normal.dot(difference)) / size : difference.norm();
+    if (kPerDifference * error <= tolerance_ || difference.norm() < kSmall) break;
+    const VertexSplit split = at.split();
+    emitPiece(split.childInR(), kSideV0, square.quarter(true, false), sink);
+    emitPiece(split.childInL(), kSideU0, square.quarter(false, true), sink);
+    emitPiece(split.childInF(), 0, square.quarter(true, true), sink);
+    at = at.below(split);
+    square = square.quarter(false, false);
+  }
+  sink.piece({{{{at.u, mirrored(at.u, at.mEnd), mirrored(at.left, at.mLeft)},
+                {mirrored(at.u, at.mStart), at.u, at.left},
+                {mirrored(at.right, at.mRight), at.right, at.opposite}}},
+              kSideU0 | kSideV0,
+              square});
+}
+
+}  // namespace vox

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "libvox/mesh/limit_piece.h"
+#include "libvox/subdivide/extraordinary.h"
+#include "libvox/subdivide/local_images.h"
+#include "libvox/subdivide/vertex_split.h"
+
+#include <span>
+#include <vector>
+
+namespace vox {
+
+/// The limit surface of submeshes of a base mesh as biquadratic pieces that cover it without gaps.
+///
+/// A regular vertex is one piece. Around an extraordinary face the pieces are rings of vertices,
+/// level by level, until the rest is closed well enough by pieces that treat the face as a quad:
+/// the fourth corner of the quad is placed so that the centroids agree. Such a piece has the exact
+/// limit point of the face, meets its neighbours without a gap and the rings without a kink. The
+/// rings end when the next level would move by less than the tolerance along the normal.
+///
+/// At a free boundary the surface ends in curves between the faces that exist. Each is a piece whose
+/// three rows of control points are equal.
+///
+/// A corner owns its pieces, so if submeshes cover the mesh once, the pieces cover the surface once.
+/// The pieces of a corner come in an order that does not depend on the submeshes; all have the same
+/// bits in every submesh. One object per thread. Source: paper section 4; DESIGN section 18.
+class LimitWalk {
+ public:
+  /// @param base       level 0, in index space: an oriented manifold with one fan of faces at each
+  ///   vertex
+  /// @param tolerance  voxels
+  explicit LimitWalk(const SubdivisionLevel& base, double tolerance = 0.002)
+      : images_(base), tolerance_(tolerance) {}
+
+  /// Gives the sink the pieces that the corners of some faces own.
+  /// @param faces  of the base; the span must stay valid until the next call
+  /// @throws LimitError  coordinates are out of range
+  void emit(std::span<const Index> faces, LimitSink& sink);
+
+ private:
+  /// A corner of a face of the submesh, by slots.
+  struct Corner {
+    Index first;   // of the face
+    Index place;   // in the face
+    Index size;    // of the face
+    Index number;  // in the base mesh
+    Index slot() const { return first + place; }
+    Index next() const { return place + 1 == size ? first : first + place + 1; }
+    Index previous() const { return (place == 0 ? first + size : first + place) - 1; }
+    Index opposite() const { return first + (place ^ 2U); }  // in a quad
+    CornerSquare square() const { return {number}; }
+  };
+
+  void emitFace(Index face, Index firstSlot, LimitSink& sink);
+  bool hasVFace(const Corner& at) const;
+  Patch patchAt(const Corner& at) const;
+  std::uint8_t boundarySidesAt(const Corner& at) const;
+  void subdivideVFace(Index number);
+  void split(const Corner& at, LimitSink& sink);
+  void splitInVFace(const Corner& at, VertexSplit& split);
+  void joinFace(const Corner& at, const VertexSplit& split);
+  void joinVFace(const Corner& at, const VertexSplit& split);
+  void emitVFaces(LimitSink& sink);
+  void emitAround(ExtraordinaryFace& face, LimitSink& sink);
+  void emitBoundaryCorner(BoundaryCorner corner, CornerSquare square, LimitSink& sink);
+
+  LocalImages images_;
+  double tolerance_;
+  FaceImages faceImages_;
+  std::vector<Vec3d> facePoints_;   // level 2 in one face
+  std::vector<Vec3d> vFaceImages_;  // level 2 in the V-faces that are known
+  std::vector<std::uint8_t> vFaceKnown_;
+  std::vector<Vec3d> vFaceNear_, vFaceFar_,
+      vFaceCorner_;  // as in ExtraordinaryFace, per point of a V-face
+  std::vector<std::uint8_t> vFaceActive_;
+  std::vector<CornerSquare> vFaceSquares_;
+  ExtraordinaryFace around_;           // the face at level 2, if it is not a quad
+  std::vector<CornerSquare> squares_;  // of the corners of around_
+  bool joined_ = false;                // whether around_ has active corners
+  ExtraordinaryFace vFace_, next_;
+  std::vector<Vec3d> innerImages_;
+};
+
+}  // namespace vox
