@@ -74,7 +74,7 @@ class SceneMarker {
  private:
   void markByVertices(const PreparedSurface& surface, ObjectReport& part) {
     SurfaceReport marked;
-    markSurface(surface.base, request_.surface, prepared_.budget, progress_, grid_, marked);
+    markSurface(surface.base, surface.options, prepared_.budget, progress_, grid_, marked);
     part.submeshes = marked.submeshes;
     part.verticesOfLevel = marked.vertices;
     for (std::size_t level = 0; level < marked.vertices.size(); ++level) {
@@ -85,7 +85,7 @@ class SceneMarker {
   }
 
   void markByPolygons(const PreparedSurface& surface, ObjectReport& part) {
-    markPolygons(surface.base, surface.way.until, request_.surface, surface.way.separation,
+    markPolygons(surface.base, surface.way.until, surface.options, surface.way.separation,
                  prepared_.budget, progress_, grid_, part.polygons);
     part.byPolygons = true;
     part.until = surface.way.until;
@@ -168,7 +168,7 @@ Estimate estimateScene(const Scene& scene, const Request& request, Progress& pro
   Estimate estimate = prepared.estimate;
   if (!estimate.refusal.empty()) return estimate;
   for (const PreparedSurface& surface : prepared.surfaces)
-    estimate.levels = std::max(estimate.levels, levelsOf(surface, request.surface, progress));
+    estimate.levels = std::max(estimate.levels, levelsOf(surface, progress));
   return estimate;
 }
 

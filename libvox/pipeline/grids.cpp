@@ -61,7 +61,7 @@ openvdb::GridBase::Ptr makeNormals(const openvdb::MaskGrid& mask,
                  "the normals", kAdvice);
   VoxelMeans means(mask.tree());
   for (const PreparedSurface& surface : surfaces)
-    addNormals(surface.base, surface.way, progress, means);
+    addNormals(surface.base, surface.way, surface.options, progress, means);
   means.fillGaps();
   return normalGrid(mask, means);
 }

@@ -8,7 +8,6 @@
 #include "libvox/mesh/area_vector.h"
 #include "libvox/options/voxelize.h"
 #include "libvox/pipeline/refined_polygons.h"
-#include "libvox/pipeline/surface.h"
 #include "libvox/pipeline/vertex_normals.h"
 #include "libvox/voxelize/blended_triangle.h"
 #include "libvox/voxelize/scan.h"
@@ -86,8 +85,8 @@ class NormalSink : public PolygonSink {
 
 }  // namespace
 
-void addNormals(const SubdivisionLevel& base, const ConversionWay& way, Progress& progress,
-                VoxelMeans& means) {
+void addNormals(const SubdivisionLevel& base, const ConversionWay& way,
+                const SurfaceOptions& options, Progress& progress, VoxelMeans& means) {
   if (!way.polygons) return addNormalsOfVertices(base, progress, means);
   tbb::enumerable_thread_specific<NormalSink> sinks([&] { return NormalSink(means); });
   if (way.until.levels == 0) {
@@ -99,8 +98,8 @@ void addNormals(const SubdivisionLevel& base, const ConversionWay& way, Progress
         });
     return;
   }
-  const PolygonPlan plan = planPolygons(base, way.until, kDefaultSubmeshFaces, progress);
-  makePolygons(base, plan, progress, [&]() -> PolygonSink& { return sinks.local(); });
+  const PolygonPlan plan = planPolygons(base, way.until, options, progress);
+  makePolygons(plan, progress, [&]() -> PolygonSink& { return sinks.local(); });
 }
 
 }  // namespace vox

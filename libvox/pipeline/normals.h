@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/options/surface_options.h"
 #include "libvox/pipeline/choose.h"
 #include "libvox/subdivide/level.h"
 
@@ -17,7 +18,7 @@ class VoxelMeans;
 ///
 /// @param base  in index space
 /// @throws LimitError, Cancelled
-void addNormals(const SubdivisionLevel& base, const ConversionWay& way, Progress& progress,
-                VoxelMeans& means);
+void addNormals(const SubdivisionLevel& base, const ConversionWay& way,
+                const SurfaceOptions& options, Progress& progress, VoxelMeans& means);
 
 }  // namespace vox
