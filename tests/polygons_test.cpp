@@ -356,10 +356,11 @@ TEST_CASE("voxels of refined polygons are the same for every cut and any threads
       CAPTURE(stopRuleName(rule));
       ConvertOptions options = polygonsAt(0.01, 0, Separation::k6);
       options.until = rule;
-      options.surface.submeshFaces = 1;
+      options.grids = std::vector{GridKind::kMask, GridKind::kNormal};
+      options.surface = {Localize::kBefore, 1};
       options.run.threads = 1;
       const std::string alone = test::bytesOf(convert(test::oneObject(mesh), options));
-      options.surface.submeshFaces = kDefaultSubmeshFaces;
+      options.surface = {};
       options.run.threads = 8;
       CHECK(test::bytesOf(convert(test::oneObject(mesh), options)) == alone);
       if (rule != StopRule{4}) continue;
@@ -419,7 +420,7 @@ TEST_CASE("the triangle soup of a surface is closed and the same for any threads
   for (Vec3d& p : base.mesh.points) p *= 50;
   Progress unwatched;
   const StopRule flat = {.flatness = 0.1};
-  const auto make = [&] { return triangleSoup(base, flat, unwatched); };
+  const auto make = [&] { return triangleSoup(base, flat, {}, unwatched); };
   const TriangleSoup soup = onThreads(1, make);
   const TriangleSoup again = onThreads(8, make);
   CHECK(soup.points == again.points);

@@ -180,7 +180,7 @@ TEST_CASE("polygons of different depths meet without gaps", "[inspect][separatio
   const Conversion conversion = convert(scene, options);
   const auto& voxels = openvdb::gridPtrCast<openvdb::MaskGrid>(conversion.grids[0])->tree();
   Progress unwatched;
-  TriangleSoup soup = triangleSoup(baseLevel(mesh, BoundaryRule::kExtend), until, unwatched);
+  TriangleSoup soup = triangleSoup(baseLevel(mesh, BoundaryRule::kExtend), until, {}, unwatched);
   const ReferenceSurface surface = {std::move(soup.points), std::move(soup.triangles), 0};
   CHECK(findTunnels(voxels, surface, Separation::k6).tunnels == 0);
   std::size_t tunnels = 0;

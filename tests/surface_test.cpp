@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <utility>
 
 using namespace vox;
 using Catch::Contains;
@@ -101,16 +102,17 @@ TEST_CASE("the voxels do not depend on how a surface is cut into submeshes",
     }
 }
 
-TEST_CASE("the voxels do not depend on whether large patches are split into tasks",
-          "[pipeline][localize]") {
+TEST_CASE("the voxels of large patches depend neither on tasks nor on submeshes nor on threads",
+          "[pipeline][localize][parallel]") {
   const SubdivisionLevel base = largeCube();
   const Marked plain = mark(base, {});
   CHECK(plain.tree->activeVoxelCount() > 5000000);
-  for (const Index faces : {1U, 7U, 1000U}) {
-    const Marked whole = mark(base, {Localize::kBefore, faces});
-    CHECK(whole.tree->hasSameTopology(*plain.tree));
-    CHECK(whole.report.vertices == plain.report.vertices);
-  }
+  for (const auto localize : {Localize::kBefore, Localize::kDuring})
+    for (const auto& [faces, threads] : {std::pair(1U, 8), std::pair(7U, 1), std::pair(1000U, 2)}) {
+      const Marked other = onThreads(threads, [&] { return mark(base, {localize, faces}); });
+      CHECK(other.tree->hasSameTopology(*plain.tree));
+      CHECK(other.report.vertices == plain.report.vertices);
+    }
 }
 
 TEST_CASE("the whole mesh level by level has the voxels of its submeshes, but for rounding ties",
@@ -140,16 +142,6 @@ TEST_CASE("the whole mesh level by level has the voxels of its submeshes, but fo
   compare(test::repairedLevel(test::pyramid(90), 50.5));
   CAPTURE(ties);
   CHECK(ties < 1000);
-}
-
-TEST_CASE("thread count never changes the voxels of split patches", "[pipeline][parallel]") {
-  const SubdivisionLevel base = largeCube();
-  const Marked first = mark(base, {});
-  for (const int threads : {1, 2, 8}) {
-    const Marked other = onThreads(threads, [&] { return mark(base, {}); });
-    CHECK(other.tree->hasSameTopology(*first.tree));
-    CHECK(other.report.vertices == first.report.vertices);
-  }
 }
 
 TEST_CASE("a level of the whole mesh that cannot fit is refused before it is made",

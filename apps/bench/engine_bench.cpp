@@ -186,7 +186,7 @@ void normals(benchmark::State& state, const Work& work) {
   Progress unwatched;
   timeEach(state, [&] {
     VoxelMeans means(work.mask->tree());
-    addNormals(work.base, {}, unwatched, means);
+    addNormals(work.base, {}, {}, unwatched, means);
     means.fillGaps();
     return normalGrid(*work.mask, means);
   });

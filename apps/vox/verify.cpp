@@ -37,20 +37,21 @@ ReferenceSurface smoothReference(SubdivisionLevel level, const MemoryBudget& bud
   return referenceSurface(std::move(level.mesh), kTolerance);
 }
 
-ReferenceSurface referenceOf(const Scene& scene, const SceneObject& object,
-                             const ObjectRequest& request, const GridTransform& transform,
-                             const MemoryBudget& budget, Progress& progress) {
+ReferenceSurface referenceOf(const Scene& scene, const Request& request, std::size_t i,
+                             const GridTransform& transform, const MemoryBudget& budget,
+                             Progress& progress) {
+  const ObjectRequest& object = request.objects[i];
   SubdivisionLevel level =
-      std::move(prepare(scene, object, request.preparation, budget, progress).base);
+      std::move(prepare(scene, scene.objects[i], object.preparation, budget, progress).base);
   for (Vec3d& point : level.mesh.points) point = transform.toIndex(point);
-  const ConversionWay& way = request.way;
+  const ConversionWay& way = object.way;
   if (!way.polygons) return smoothReference(std::move(level), budget, progress);
   const bool uniform = way.until == StopRule{.levels = way.until.levels};
   if (uniform)
     return referenceSurface(
         subdividedWithin(budget, std::move(level), *way.until.levels, progress).mesh, 0);
   // Polygons that stop at different levels have no second implementation.
-  TriangleSoup soup = triangleSoup(level, way.until, progress);
+  TriangleSoup soup = triangleSoup(level, way.until, request.surface, progress);
   return {std::move(soup.points), std::move(soup.triangles), 0};
 }
 
@@ -65,10 +66,8 @@ std::vector<ObjectCheck> checkObjects(const openvdb::MaskTree& voxels, const Sce
   transform.turn = request.turn;
   std::vector<ObjectCheck> checks;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const SceneObject& object = scene.objects[i];
-    const ReferenceSurface surface =
-        referenceOf(scene, object, request.objects[i], transform, budget, progress);
-    checks.push_back({object.name, findTunnels(voxels, surface, request.separation)});
+    const ReferenceSurface surface = referenceOf(scene, request, i, transform, budget, progress);
+    checks.push_back({scene.objects[i].name, findTunnels(voxels, surface, request.separation)});
     progress.check();
   }
   return checks;

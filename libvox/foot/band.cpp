@@ -109,10 +109,10 @@ class BandMaker {
   BandMaker(const BandMaker&) = delete;
   BandMaker& operator=(const BandMaker&) = delete;
 
-  void run(Progress& progress) {
+  void run(Progress& progress, double share) {
     tbb::enumerable_thread_specific<std::unique_ptr<Work>> works(
         [] { return std::make_unique<Work>(); });
-    const double part = 1.0 / static_cast<double>(std::max<std::size_t>(1, bins_.count()));
+    const double part = share / static_cast<double>(std::max<std::size_t>(1, bins_.count()));
     parallelForEach(bins_.count(), 1, [&](std::size_t bin) {
       progress.check();
       Work& work = *works.local();
@@ -287,9 +287,9 @@ class BandMaker {
 }  // namespace
 
 Band makeBand(const FootBins& bins, const BandOptions& options, const Inside& inside,
-              Progress& progress) {
+              Progress& progress, double part) {
   BandMaker maker(bins, options, inside);
-  maker.run(progress);
+  maker.run(progress, part);
   return maker.take();
 }
 

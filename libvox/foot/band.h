@@ -38,10 +38,11 @@ struct Band {
 /// @param bins    cells with a reach of at least the band and the thickness
 /// @param inside  if set, a voxel is inside if it is solid; a voxel that a surface crosses: if it
 ///   lies on the inner side of its foot, or has none near
+/// @param part    the share of this in the current stage of `progress`
 /// Parallel; the same bits for any number of threads.
 /// @throws Cancelled
 Band makeBand(const FootBins& bins, const BandOptions& options, const Inside& inside,
-              Progress& progress);
+              Progress& progress, double part);
 
 /// Estimate of the bytes of a band.
 /// @param area  of the surface, in square voxels

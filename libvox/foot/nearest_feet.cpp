@@ -74,13 +74,14 @@ struct FeetWork {
 }  // namespace
 
 void forEachFoot(const FootBins& bins, const openvdb::MaskTree& voxels, Progress& progress,
-                 const std::function<void(const openvdb::Coord&, const LeafFeet&)>& visit) {
+                 double part, const std::function<void(const openvdb::Coord&, const LeafFeet&)>& visit) {
   tbb::enumerable_thread_specific<std::unique_ptr<FeetWork>> works(
       [] { return std::make_unique<FeetWork>(); });
   parallelForEach(bins.count(), 1, [&](std::size_t bin) {
     progress.check();
     FeetWork& work = *works.local();
     const openvdb::Coord origin = bins.originOf(bin);
+    progress.done(part / static_cast<double>(bins.count()));
     if (!work.nearest.begin(voxels, origin)) return;
     for (const BinnedCell& cell : bins.cellsOf(bin)) {
       const auto keep = [&](const Feet& feet) { work.nearest.keepNearest(feet, cell); };

@@ -39,8 +39,9 @@ struct LeafFeet {
 /// cell of the bin, so the same for any number of threads.
 /// @param bins    without polynomial cells
 /// @param voxels  without tiles
+/// @param part    the share of this in the current stage of `progress`
 /// @throws Cancelled
 void forEachFoot(const FootBins& bins, const openvdb::MaskTree& voxels, Progress& progress,
-                 const std::function<void(const openvdb::Coord&, const LeafFeet&)>& visit);
+                 double part, const std::function<void(const openvdb::Coord&, const LeafFeet&)>& visit);
 
 }  // namespace vox

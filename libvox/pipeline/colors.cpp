@@ -84,8 +84,7 @@ class MeshColors {
 
 void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
                      const PreparedSurface& surface, const MeshColors& colors,
-                     const SurfaceOptions& options, const MemoryBudget& budget,
-                     Progress& progress) {
+                     const MemoryBudget& budget, Progress& progress, double part) {
   const FootSurfaces feet = footSurfaces({&surface, 1});
   const auto colorAt = [&](const FootBins& bins, const FootPlace& at) {
     if (at.cell->kind == CellKind::kTriangle)
@@ -96,7 +95,7 @@ void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
     };
     return colors.at(cell.owner, place(0, cell.u, at.a), place(1, cell.v, at.b));
   };
-  visitFeet(feet, voxels, options, budget, progress,
+  visitFeet(feet, voxels, budget, progress, part,
             [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
               openvdb::Vec3s* const values = color.tree().probeLeaf(origin)->buffer().data();
               leafFeet.forEachFound([&](unsigned i) { values[i] = asFloats(colorAt(bins, leafFeet.place[i])); });
@@ -119,8 +118,7 @@ std::optional<PlacedTexture> placedTexture(const std::optional<TextureSpec>& tex
 
 openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask,
                                      std::span<const PreparedSurface> surfaces,
-                                     const SurfaceOptions& options, MemoryBudget& budget,
-                                     Progress& progress) {
+                                     MemoryBudget& budget, Progress& progress) {
   budget.take(bytesOfVectors(mask.tree()), "the color grid", kScatteredAdvice);
   auto color = colorGrid(mask);
   for (const PreparedSurface& surface : surfaces) {
@@ -131,7 +129,7 @@ openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask,
       paintTexture(*color, voxels, *surface.texture);
     else if (!colors.empty())
       paintMeshColors(*color, voxels, surface, MeshColors(surface.base.mesh, std::move(colors)),
-                      options, budget, progress);
+                      budget, progress, 1.0 / static_cast<double>(surfaces.size()));
   }
   return color;
 }

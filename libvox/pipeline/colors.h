@@ -3,7 +3,6 @@
 #include "libvox/grid/openvdb_fwd.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/scene_file.h"
-#include "libvox/options/surface_options.h"
 #include "libvox/pipeline/prepared_surface.h"
 
 #include <memory>
@@ -31,7 +30,6 @@ std::optional<PlacedTexture> placedTexture(const std::optional<TextureSpec>& tex
 /// @throws Cancelled
 std::shared_ptr<openvdb::GridBase> makeColorGrid(const openvdb::MaskGrid& mask,
                                                  std::span<const PreparedSurface> surfaces,
-                                                 const SurfaceOptions& options,
                                                  MemoryBudget& budget, Progress& progress);
 
 }  // namespace vox

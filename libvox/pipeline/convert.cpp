@@ -23,6 +23,7 @@
 #include "libvox/volume/density.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 namespace vox {
@@ -74,7 +75,7 @@ class SceneMarker {
  private:
   void markByVertices(const PreparedSurface& surface, ObjectReport& part) {
     SurfaceReport marked;
-    markSurface(surface.base, request_.surface, prepared_.budget, progress_, grid_, marked);
+    markSurface(surface.base, surface.options, prepared_.budget, progress_, grid_, marked);
     part.submeshes = marked.submeshes;
     part.verticesOfLevel = marked.vertices;
     for (std::size_t level = 0; level < marked.vertices.size(); ++level) {
@@ -85,7 +86,7 @@ class SceneMarker {
   }
 
   void markByPolygons(const PreparedSurface& surface, ObjectReport& part) {
-    markPolygons(surface.base, surface.way.until, request_.surface, surface.way.separation,
+    markPolygons(surface.base, surface.way.until, surface.options, surface.way.separation,
                  prepared_.budget, progress_, grid_, part.polygons);
     part.byPolygons = true;
     part.until = surface.way.until;
@@ -162,14 +163,15 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   result.compression = volume.compression;
   if (volume.target == Target::kBlender34)
     mask->transform().postTranslate(openvdb::Vec3d(-prepared.transform.voxelSize / 2));
-  progress.begin("grids", workOfGrids(prepared.areas, request.grids));
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, request, report);
-  for (const GridKind kind : request.grids)
+  for (const GridKind kind : request.grids) {
+    progress.begin("grids", workOfGrids(prepared.areas, std::array{kind}));
     result.grids.push_back(
-        finished(makeGrid(kind, {mask, prepared.surfaces, markVoxels}, volume, request.surface,
+        finished(makeGrid(kind, {mask, prepared.surfaces, markVoxels}, volume,
                           prepared.budget, progress, report.warnings),
                  kind, volume, metadata));
+  }
   if (!marks) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
 }
@@ -182,7 +184,7 @@ Estimate estimateScene(const Scene& scene, const Request& request, Progress& pro
   Estimate estimate = prepared.estimate;
   if (!estimate.refusal.empty()) return estimate;
   for (const PreparedSurface& surface : prepared.surfaces)
-    estimate.levels = std::max(estimate.levels, levelsOf(surface, request.surface, progress));
+    estimate.levels = std::max(estimate.levels, levelsOf(surface, progress));
   return estimate;
 }
 

@@ -82,11 +82,10 @@ class InnerSide : public LimitSink {
 class LevelSetMaker {
  public:
   LevelSetMaker(std::span<const PreparedSurface> surfaces, const VolumeSettings& settings,
-                const SurfaceOptions& options, double voxelSize, const MarkVoxels& markVoxels,
-                MemoryBudget& budget, Progress& progress)
+                double voxelSize, const MarkVoxels& markVoxels, MemoryBudget& budget,
+                Progress& progress)
       : surfaces_(surfaces),
         settings_(settings),
-        options_(options),
         voxelSize_(voxelSize),
         markVoxels_(markVoxels),
         budget_(budget),
@@ -127,11 +126,11 @@ class LevelSetMaker {
       InnerSide::Votes votes;
       FootCells none({.reach = 0});
       none.addLimitSurface(
-          surfaces_[part.surface].base, part.component->faces, options_,
+          surfaces_[part.surface], part.component->faces,
           [&](LimitSink&) {
             return std::make_unique<InnerSide>(*inside_.surface, *inside_.solid, votes);
           },
-          progress_);
+          progress_, 0);
       (2 * votes.solid > votes.all ? closed_ : sheets).push_back(part);
     }
     open_ = std::move(sheets);
@@ -146,25 +145,31 @@ class LevelSetMaker {
   }
 
   openvdb::FloatTree::Ptr bandOfSolids() {
+    constexpr double kFirst = 0.9;  // share of the stage
     const BandOptions options{settings_.band, settings_.band, voxelSize_};
     const bool overlap =
         mayMeet(closed_) || std::any_of(closed_.begin(), closed_.end(), facesInward);
     if (!overlap && inside_.solid == nullptr) {
-      Band band = bandOf(closed_, options, false);
+      Band band = bandOf(closed_, options, false, kFirst);
       if (band.jumps == 0) return band.tree;
     }
     findInside();
-    return bandOf(closed_, options, true).tree;
+    return bandOf(closed_, options, true, overlap || !open_.empty() ? kFirst : 1 - kFirst).tree;
   }
 
   openvdb::FloatTree::Ptr bandOfSheets() {
     constexpr double kHalfThickness = 0.5;
     const double half = settings_.openMesh == OpenMesh::kUnsigned ? 0 : kHalfThickness;
-    return bandOf(open_, {settings_.band, settings_.band, voxelSize_, true, half}, false).tree;
+    return bandOf(open_, {settings_.band, settings_.band, voxelSize_, true, half}, false,
+                  closed_.empty() ? 1 : 0.1)
+        .tree;
   }
 
   /// @param byVoxels  whether voxels decide what is inside
-  Band bandOf(const std::vector<Part>& parts, const BandOptions& options, bool byVoxels) {
+  /// @param share     of the stage
+  Band bandOf(const std::vector<Part>& parts, const BandOptions& options, bool byVoxels,
+              double share) {
+    constexpr double kPartOfCells = 0.3;
     FootCells cells(
         {.reach = static_cast<float>(std::max(options.in, options.out) + options.halfThickness)});
     for (auto begin = parts.begin(); begin != parts.end();) {
@@ -172,14 +177,16 @@ class LevelSetMaker {
       std::vector<Index> faces;
       for (; begin != parts.end() && begin->surface == s; ++begin)
         faces.insert(faces.end(), begin->component->faces.begin(), begin->component->faces.end());
-      addCells(surfaces_[s], std::move(faces), byVoxels, cells);
+      addCells(surfaces_[s], std::move(faces), byVoxels,
+               kPartOfCells * share / static_cast<double>(surfaces_.size()), cells);
     }
     budget_.require(cells.bytes(), "the cells of the surface", kAdvice);
-    return makeBand(cells.bins(), options, byVoxels ? inside_ : Inside{}, progress_);
+    return makeBand(cells.bins(), options, byVoxels ? inside_ : Inside{}, progress_,
+                    (1 - kPartOfCells) * share);
   }
 
   void addCells(const PreparedSurface& surface, std::vector<Index> faces, bool byVoxels,
-                FootCells& cells) const {
+                double share, FootCells& cells) const {
     std::sort(faces.begin(), faces.end());
     if (levelOf(surface.way))
       return cells.addTriangles(trianglesOfLevel(surface, faces, budget_, progress_), progress_);
@@ -189,12 +196,11 @@ class LevelSetMaker {
       filter = [this](LimitSink& next) {
         return std::make_unique<ExposedPieces>(*inside_.solid, next);
       };
-    cells.addLimitSurface(surface.base, faces, options_, filter, progress_);
+    cells.addLimitSurface(surface, faces, filter, progress_, share);
   }
 
   std::span<const PreparedSurface> surfaces_;
   const VolumeSettings& settings_;
-  const SurfaceOptions& options_;
   double voxelSize_;
   const MarkVoxels& markVoxels_;
   MemoryBudget& budget_;
@@ -217,12 +223,12 @@ bool isThin(const openvdb::FloatTree& tree, double voxelSize) {
 }  // namespace
 
 openvdb::FloatGrid::Ptr surfaceGrid(std::span<const PreparedSurface> surfaces,
-                                    const VolumeSettings& settings, const SurfaceOptions& options,
+                                    const VolumeSettings& settings,
                                     const openvdb::math::Transform& transform,
                                     const MarkVoxels& markVoxels, MemoryBudget& budget,
                                     Progress& progress, std::vector<std::string>& warnings) {
   const double voxelSize = transform.voxelSize()[0];
-  LevelSetMaker maker(surfaces, settings, options, voxelSize, markVoxels, budget, progress);
+  LevelSetMaker maker(surfaces, settings, voxelSize, markVoxels, budget, progress);
   auto grid = openvdb::FloatGrid::create(maker.make());
   grid->setTransform(transform.copy());
   const bool isUnsigned = maker.hasSheets() && settings.openMesh == OpenMesh::kUnsigned;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "libvox/grid/openvdb_fwd.h"
-#include "libvox/options/surface_options.h"
 #include "libvox/options/volume_options.h"
 #include "libvox/pipeline/prepared_surface.h"
 
@@ -35,7 +34,6 @@ using MarkVoxels = std::function<const openvdb::MaskTree&()>;
 /// @throws Cancelled
 std::shared_ptr<openvdb::FloatGrid> surfaceGrid(std::span<const PreparedSurface> surfaces,
                                                 const VolumeSettings& settings,
-                                                const SurfaceOptions& options,
                                                 const openvdb::math::Transform& transform,
                                                 const MarkVoxels& markVoxels, MemoryBudget& budget,
                                                 Progress& progress,

@@ -276,12 +276,11 @@ Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<cons
   return all;
 }
 
-int levelsOf(const PreparedSurface& surface, const SurfaceOptions& options,
-             const Progress& progress) {
+int levelsOf(const PreparedSurface& surface, Progress& progress) {
   const StopRule& until = surface.way.until;
   if (const auto level = levelOf(surface.way)) return *level;
   if (surface.way.polygons)
-    return planPolygons(surface.base, until, options.submeshFaces, progress).levels;
+    return planPolygons(surface.base, until, surface.options, progress).levels;
   double largest = 0;
   std::vector<Vec3d> points;
   const PolygonMesh& mesh = surface.base.mesh;

@@ -50,8 +50,7 @@ Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<cons
                        const VolumeSettings& volume);
 
 /// Approximate number of Doo-Sabin steps down to the deepest vertex.
-int levelsOf(const PreparedSurface& surface, const SurfaceOptions& options,
-             const Progress& progress);
+int levelsOf(const PreparedSurface& surface, Progress& progress);
 
 /// Why the grids cannot fit into memory, and a resolution at which they do; empty if they may fit.
 /// @param longestSide  of the input, world units

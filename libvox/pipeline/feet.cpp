@@ -82,8 +82,9 @@ FootSurfaces footSurfaces(std::span<const PreparedSurface> surfaces) {
 }
 
 void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
-               const SurfaceOptions& options, const MemoryBudget& budget, Progress& progress,
+               const MemoryBudget& budget, Progress& progress, double part,
                const VisitFeet& visit) {
+  constexpr double kPartOfCells = 0.4;
   openvdb::MaskTree left(voxels);
   for (float reach = kFirstReach; reach <= kMostReach && !left.empty(); reach *= kMoreReach) {
     const CellOptions cellOptions{.reach = reach, .polynomials = false, .newtonStop = 0.02F};
@@ -93,17 +94,19 @@ void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
       if (flat.triangles.faceCount() > 0)
         cells.addTriangles(flat.triangles, progress);
       else
-        cells.addLimitSurface(surfaces.surfaces[s].base, {}, options, {}, progress);
+        cells.addLimitSurface(surfaces.surfaces[s], {}, {}, progress,
+                              kPartOfCells * part / static_cast<double>(surfaces.surfaces.size()));
     }
     budget.require(cells.bytes(), "the cells of the surface",
                    "use larger voxels, or raise --max-memory");
     const FootBins bins = cells.bins();
-    forEachFoot(bins, left, progress,
+    forEachFoot(bins, left, progress, (1 - kPartOfCells) * part,
                 [&](const openvdb::Coord& origin, const LeafFeet& feet) {
                   visit(bins, origin, feet);
                   removeFound(origin, feet, left);
                 });
     openvdb::tools::pruneInactive(left);
+    part = 0;  // the first pass has nearly all of the work
   }
 }
 

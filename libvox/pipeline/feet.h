@@ -1,7 +1,6 @@
 #pragma once
 
 #include "libvox/foot/nearest_feet.h"
-#include "libvox/options/surface_options.h"
 #include "libvox/pipeline/prepared_surface.h"
 
 #include <functional>
@@ -35,11 +34,12 @@ struct FootSurfaces {
 /// first near the surface, then, for voxels that are left over, farther and farther away. From any
 /// thread; twice for a leaf only if other voxels have a foot.
 /// @param voxels  without tiles
+/// @param part    the share of this in the current stage of `progress`
 /// @throws LimitError
 /// @throws Cancelled
 using VisitFeet = std::function<void(const FootBins&, const openvdb::Coord&, const LeafFeet&)>;
 void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
-               const SurfaceOptions& options, const MemoryBudget& budget, Progress& progress,
+               const MemoryBudget& budget, Progress& progress, double part,
                const VisitFeet& visit);
 
 /// Collects the surfaces of feet.

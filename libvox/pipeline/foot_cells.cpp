@@ -6,7 +6,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/foot/triangle_maker.h"
-#include "libvox/localize/partition.h"
+#include "libvox/pipeline/run_submeshes.h"
 #include "libvox/subdivide/limit_walk.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -29,7 +29,16 @@ struct CellWalk {
       : walk(base), maker(options, firstOwner, store) {
     if (makeFilter) filter = makeFilter(maker);
   }
-  LimitSink& sink() { return filter ? *filter : maker; }
+
+  /// @param among  the faces to walk over, ascending; empty: all
+  void emit(std::span<const Index> submesh, const std::vector<Index>& among) {
+    LimitSink& sink = filter ? *filter : maker;
+    if (among.empty()) return walk.emit(submesh, sink);
+    faces.clear();
+    for (const Index f : submesh)
+      if (std::binary_search(among.begin(), among.end(), f)) faces.push_back(f);
+    if (!faces.empty()) walk.emit(faces, sink);
+  }
 };
 
 }  // namespace
@@ -50,24 +59,17 @@ void FootCells::takeOwners(std::uint64_t count) {
   firstOwner_ += static_cast<std::uint32_t>(count);
 }
 
-void FootCells::addLimitSurface(const SubdivisionLevel& base, const std::vector<Index>& faces,
-                                const SurfaceOptions& options, const PieceFilter& filter,
-                                Progress& progress) {
+void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vector<Index>& faces,
+                                const PieceFilter& filter, Progress& progress, double part) {
   const std::uint32_t firstOwner = firstOwner_;
-  takeOwners(base.mesh.cornerCount());
-  const Partition partition = coverGreedily(base.mesh, base.adjacency, options.submeshFaces);
-  tbb::enumerable_thread_specific<std::unique_ptr<CellWalk>> walks([&] {
-    return std::make_unique<CellWalk>(base, options_, firstOwner, newStore(), filter);
-  });
-  parallelForEach(partition.size(), 1, [&](Index s) {
-    progress.check();
-    CellWalk& walk = *walks.local();
-    if (faces.empty()) return walk.walk.emit(partition.submesh(s), walk.sink());
-    walk.faces.clear();
-    for (const Index f : partition.submesh(s))
-      if (std::binary_search(faces.begin(), faces.end(), f)) walk.faces.push_back(f);
-    if (!walk.faces.empty()) walk.walk.emit(walk.faces, walk.sink());
-  });
+  takeOwners(surface.base.mesh.cornerCount());
+  const auto walkOfThread = [&] {
+    return std::make_unique<CellWalk>(surface.base, options_, firstOwner, newStore(), filter);
+  };
+  runSubmeshes(cutIntoSubmeshes(surface.base, surface.options), progress, part, walkOfThread,
+               [&](const std::unique_ptr<CellWalk>& walk, const SubmeshTask& task) {
+                 walk->emit(task.faces, faces);
+               });
 }
 
 void FootCells::addTriangles(const PolygonMesh& triangles, Progress& progress) {

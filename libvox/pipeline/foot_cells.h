@@ -2,7 +2,6 @@
 
 #include "libvox/foot/cell_maker.h"
 #include "libvox/foot/foot_bins.h"
-#include "libvox/options/surface_options.h"
 #include "libvox/pipeline/prepared_surface.h"
 
 #include <cstdint>
@@ -30,15 +29,15 @@ class FootCells {
   FootCells(const FootCells&) = delete;
   FootCells& operator=(const FootCells&) = delete;
 
-  /// Adds the limit surface of some faces of a base level. The cells have the owners firstOwner() +
+  /// Adds the limit surface of some faces of a surface. The cells have the owners firstOwner() +
   /// number of the corner.
   /// @param faces   ascending; empty: all
   /// @param filter  may be empty
+  /// @param part    the share of this in the current stage of `progress`
   /// @throws LimitError  coordinates are out of range, or there are too many corners
   /// @throws Cancelled
-  void addLimitSurface(const SubdivisionLevel& base, const std::vector<Index>& faces,
-                       const SurfaceOptions& options, const PieceFilter& filter,
-                       Progress& progress);
+  void addLimitSurface(const PreparedSurface& surface, const std::vector<Index>& faces,
+                       const PieceFilter& filter, Progress& progress, double part);
   /// Adds the triangles of a mesh. The cells have the owners firstOwner() + number of the triangle.
   void addTriangles(const PolygonMesh& triangles, Progress& progress);
 

@@ -65,6 +65,7 @@ double workOfGrids(std::span<const double> areas, std::span<const GridKind> kind
   double work = 0;
   for (const GridKind kind : kinds) {
     if (kind == GridKind::kDensity) work += workOfDensity(area);
+    if (kind == GridKind::kSurface) work += workOfLevelSet(area);
     if (kind == GridKind::kNormal) work += workOfNormals(area);
     if (kind == GridKind::kColor) work += workOfColor(area);
   }
@@ -77,9 +78,8 @@ bool needsVoxels(std::span<const GridKind> kinds) {
 }
 
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
-                                const VolumeSettings& volume, const SurfaceOptions& options,
-                                MemoryBudget& budget, Progress& progress,
-                                std::vector<std::string>& warnings) {
+                                const VolumeSettings& volume, MemoryBudget& budget,
+                                Progress& progress, std::vector<std::string>& warnings) {
   progress.check();
   const auto& [mask, surfaces, markVoxels] = sources;
   switch (kind) {
@@ -88,12 +88,11 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
     case GridKind::kDensity:
       return makeDensity(*mask, surfaces, volume, budget, progress);
     case GridKind::kSurface:
-      return surfaceGrid(surfaces, volume, options, mask->transform(), markVoxels, budget, progress,
-                         warnings);
+      return surfaceGrid(surfaces, volume, mask->transform(), markVoxels, budget, progress, warnings);
     case GridKind::kNormal:
-      return makeNormalGrid(*mask, surfaces, options, budget, progress);
+      return makeNormalGrid(*mask, surfaces, budget, progress);
     case GridKind::kColor:
-      return makeColorGrid(*mask, surfaces, options, budget, progress);
+      return makeColorGrid(*mask, surfaces, budget, progress);
   }
   return mask;
 }

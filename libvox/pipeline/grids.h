@@ -38,8 +38,7 @@ struct GridSources {
 /// @throws LimitError  the grid does not fit into the budget
 /// @throws Cancelled
 std::shared_ptr<openvdb::GridBase> makeGrid(GridKind kind, const GridSources& sources,
-                                            const VolumeSettings& volume,
-                                            const SurfaceOptions& options, MemoryBudget& budget,
+                                            const VolumeSettings& volume, MemoryBudget& budget,
                                             Progress& progress,
                                             std::vector<std::string>& warnings);
 

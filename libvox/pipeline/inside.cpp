@@ -83,7 +83,8 @@ PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>&
   if (levelOf(surface.way)) return trianglesOfLevel(surface, faces, budget, progress);
   Progress unwatched;
   const TriangleSoup soup =
-      triangleSoup(levelOfFaces(surface, faces), StopRule{.flatness = kTolerance}, unwatched);
+      triangleSoup(levelOfFaces(surface, faces), StopRule{.flatness = kTolerance},
+                   surface.options, unwatched);
   PolygonMesh mesh;
   mesh.points = soup.points;
   for (const auto& triangle : soup.triangles) mesh.addFace(triangle);

@@ -35,8 +35,7 @@ std::vector<openvdb::Vec3s> faceNormals(const PolygonMesh& mesh, const std::vect
 
 openvdb::Vec3SGrid::Ptr makeNormalGrid(const openvdb::MaskGrid& mask,
                                        std::span<const PreparedSurface> surfaces,
-                                       const SurfaceOptions& options, MemoryBudget& budget,
-                                       Progress& progress) {
+                                       MemoryBudget& budget, Progress& progress) {
   budget.take(bytesOfVectors(mask.tree()), "the normal grid",
               "leave it out, use larger voxels, or raise --max-memory");
   auto grid = vectorGrid(mask, 0);
@@ -53,7 +52,7 @@ openvdb::Vec3SGrid::Ptr makeNormalGrid(const openvdb::MaskGrid& mask,
     }
     return directionOf(Jet(bins.newton(*at.cell).surface, at.a, at.b).normal());
   };
-  visitFeet(feet, mask.tree(), options, budget, progress,
+  visitFeet(feet, mask.tree(), budget, progress, 1,
             [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
               openvdb::Vec3s* const values = grid->tree().probeLeaf(origin)->buffer().data();
               leafFeet.forEachFound([&](unsigned i) { values[i] = normalAt(bins, leafFeet.place[i]); });

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "libvox/grid/openvdb_fwd.h"
-#include "libvox/options/surface_options.h"
 #include "libvox/pipeline/prepared_surface.h"
 
 #include <memory>
@@ -20,7 +19,6 @@ class Progress;
 /// @throws Cancelled
 std::shared_ptr<openvdb::Vec3SGrid> makeNormalGrid(const openvdb::MaskGrid& mask,
                                                    std::span<const PreparedSurface> surfaces,
-                                                   const SurfaceOptions& options,
                                                    MemoryBudget& budget, Progress& progress);
 
 }  // namespace vox

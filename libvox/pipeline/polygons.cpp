@@ -131,10 +131,10 @@ void markPolygons(SubdivisionLevel base, const StopRule& until, const SurfaceOpt
     report.levels = *until.levels;
     scanLevel(std::move(base), report.levels, budget, progress, grid, sinks);
   } else {
-    const PolygonPlan plan = planPolygons(base, until, options.submeshFaces, progress);
+    const PolygonPlan plan = planPolygons(base, until, options, progress);
     report.levels = plan.levels;
-    report.submeshes = plan.partition.size();
-    makePolygons(base, plan, progress, [&]() -> PolygonSink& { return sinks.local(); });
+    report.submeshes = plan.submeshes.partition.size();
+    makePolygons(plan, progress, [&]() -> PolygonSink& { return sinks.local(); });
   }
   for (ScanSink& sink : sinks) {
     sink.flush();

@@ -61,9 +61,11 @@ void notePreparation(const PreparedObject& prepared, const GridTransform& transf
 }
 
 /// An object, ready to subdivide in index space.
-PreparedSurface prepareObject(const Scene& scene, const SceneObject& object,
-                              const ObjectRequest& request, const GridTransform& transform,
-                              MemoryBudget& budget, Progress& progress, ConvertReport& report) {
+PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_t i,
+                              const GridTransform& transform, MemoryBudget& budget,
+                              Progress& progress, ConvertReport& report) {
+  const SceneObject& object = scene.objects[i];
+  const ObjectRequest& request = all.objects[i];
   ObjectReport& part = report.objects.emplace_back();
   part.name = object.name;
   part.inputFaces = object.mesh.faceCount();
@@ -74,7 +76,7 @@ PreparedSurface prepareObject(const Scene& scene, const SceneObject& object,
   notePreparation(prepared, transform, part, report);
   moveToIndexSpace(prepared.base.mesh, transform);
   budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
-  return {object.name, std::move(prepared.base), request.way,
+  return {object.name, std::move(prepared.base), request.way, all.surface,
           placedTexture(request.texture, object, transform.turn)};
 }
 
@@ -99,8 +101,8 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
   {
     const StageTimer timer(report.prepareSeconds);
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
-      prepared.surfaces.push_back(prepareObject(scene, scene.objects[i], request.objects[i],
-                                                transform, budget, progress, report));
+      prepared.surfaces.push_back(
+          prepareObject(scene, request, i, transform, budget, progress, report));
   }
   if (needsInside(request))
     for (const PreparedSurface& surface : prepared.surfaces)

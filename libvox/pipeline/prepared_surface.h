@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/grid/openvdb_fwd.h"
+#include "libvox/options/surface_options.h"
 #include "libvox/pipeline/choose.h"
 #include "libvox/subdivide/level.h"
 #include "libvox/volume/texture.h"
@@ -24,6 +25,7 @@ struct PreparedSurface {
   std::string name;
   SubdivisionLevel base;
   ConversionWay way;
+  SurfaceOptions options;  ///< how it is cut into submeshes
   std::optional<PlacedTexture> texture = {};
   /// The voxels of this object alone; null if no grid needs the objects separately.
   std::shared_ptr<openvdb::MaskTree> voxels = {};

@@ -1,16 +1,13 @@
-// Submeshes as tasks that share a grid.
+// Vertex conversion of a surface, submesh by submesh or as a whole.
 
 #include "libvox/pipeline/surface.h"
 
 #include "libvox/core/memory.h"
-#include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/active_voxels.h"
-#include "libvox/localize/partition.h"
-#include "libvox/mesh/area.h"
 #include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/refine.h"
-#include "libvox/pipeline/work.h"
+#include "libvox/pipeline/run_submeshes.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/global_surface.h"
 #include "libvox/subdivide/local_surface.h"
@@ -18,191 +15,68 @@
 #include "libvox/voxelize/vertex_sink.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <mutex>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 namespace vox {
 namespace {
 
-/// Patches of more levels are split: 256 x 256 vertices are some 50 microseconds of work.
-constexpr int kMostLevelsOfTask = 8;
+/// Larger patches are made in tiles: 256 x 256 vertices are some 50 microseconds of work.
+constexpr int kMostLevelsOfTile = 8;
 
 using ThreadSinks = tbb::enumerable_thread_specific<VertexSink>;
 
-/// The share of a submesh in the work. It is credited to the progress in proportion to the vertices
-/// that are made. Their total is known only after the last patch; work done until then is credited
-/// at that time.
-class SubmeshPart {
- public:
-  SubmeshPart(Progress& progress, double part) : progress_(progress), part_(part) {}
-
-  /// Some vertices are made.
-  void add(double vertices) { credit(vertices, 0); }
-  /// The total is known.
-  void setTotal(double vertices) { credit(0, std::max(1.0, vertices)); }
-
- private:
-  void credit(double vertices, double all) {
-    double part = 0;
-    {
-      const std::scoped_lock lock(mutex_);
-      keptBack_ += vertices;
-      if (all > 0) perVertex_ = part_ / all;
-      if (perVertex_ > 0) part = perVertex_ * std::exchange(keptBack_, 0);
-    }
-    if (part > 0) progress_.done(part);
+/// Tile number `tile` of a patch: one of its 4^levels descendants.
+Patch tileOf(Patch patch, int levels, std::int64_t tile) {
+  for (int level = levels - 1; level >= 0; --level) {
+    const auto child = static_cast<std::size_t>(tile >> (2 * level));
+    patch = childrenOf(patch)[child >> 1U & 1U][child & 1U];
   }
+  return patch;
+}
 
-  Progress& progress_;
-  double part_;
-  std::mutex mutex_;
-  double keptBack_ = 0;   // vertices
-  double perVertex_ = 0;  // 0: not known yet
-};
-
-/// A patch that is to be subdivided k times.
-struct DeepPatch {
-  Patch patch;
-  int k;
-  int level;
-  std::shared_ptr<SubmeshPart> part;
-
-  double vertices() const { return std::ldexp(1.0, 2 * k); }
-};
-
-/// Splits deep patches into parts that are small enough for a task, depth first.
-class DeepPatches {
- public:
-  /// @param asTasks  parts of a patch are tasks, which other threads may take
-  DeepPatches(ThreadSinks& sinks, Progress& progress, bool asTasks)
-      : sinks_(sinks), progress_(progress), asTasks_(asTasks) {}
-  ~DeepPatches() {
-    tasks_.cancel();  // no effect on tasks that are done
-    try {
-      tasks_.wait();
-    } catch (...) {
-      // The exception that stopped this thread is already on its way to the caller.
-    }
-  }
-  DeepPatches(const DeepPatches&) = delete;
-  DeepPatches& operator=(const DeepPatches&) = delete;
-
-  bool asTasks() const { return asTasks_; }
-  /// @throws Cancelled
-  void check() const { progress_.check(); }
-
-  void mark(const DeepPatch& deep) {
-    progress_.check();
-    if (deep.k <= kMostLevelsOfTask) {
-      sinks_.local().patch(deep.patch, deep.k, deep.level);
-      deep.part->add(deep.vertices());
-      return;
-    }
-    for (const auto& row : childrenOf(deep.patch))
-      for (const Patch& child : row) {
-        const DeepPatch part{child, deep.k - 1, deep.level, deep.part};
-        if (asTasks_)
-          tasks_.run(order_.task([this, part] { mark(part); }));
-        else
-          mark(part);
-      }
-  }
-
-  /// Waits until all are marked.
-  /// @throws the exception that marking one of them threw
-  void wait() { tasks_.wait(); }
-
- private:
-  ThreadSinks& sinks_;
-  Progress& progress_;
-  bool asTasks_;
-  LoopOrder order_;
-  tbb::task_group tasks_;
-};
-
-/// Passes the small patches of a submesh to the sink of the thread. Deep patches are split.
+/// Passes the vertices of a submesh to the sink of the thread, except for large patches.
 class SubmeshSink : public SurfaceSink {
  public:
-  SubmeshSink(VertexSink& sink, DeepPatches& deepPatches, std::shared_ptr<SubmeshPart> part)
-      : sink_(sink),
-        deepPatches_(deepPatches),
-        part_(std::move(part)),
-        verticesBefore_(verticesOf(sink)) {}
+  SubmeshSink(ThreadSinks& sinks, SubmeshTask& task)
+      : sinks_(sinks), sink_(sinks.local()), task_(task) {}
 
   void points(std::span<const Vec3d> points, int level) override { sink_.points(points, level); }
   void curve(const CurvePoints& points, int k, int level) override {
-    if (k > kMostLevelsOfTask) deepPatches_.check();
+    task_.progress.check();
     sink_.curve(points, k, level);
   }
   void patch(const Patch& patch, int k, int level) override {
-    if (k <= kMostLevelsOfTask || patch.quadrants != kAllQuadrants) {
-      sink_.patch(patch, k, level);
-      return;
-    }
-    const DeepPatch deep{patch, k, level, part_};
-    deepVertices_ += deep.vertices();
-    if (deepPatches_.asTasks())
-      deepPatches_.mark(deep);
-    else
-      later_.push_back(deep);
-  }
-
-  /// Call after the last patch.
-  void finish() {
-    const double here = verticesOf(sink_) - verticesBefore_;
-    part_->setTotal(here + deepVertices_);
-    part_->add(here);
-    for (const DeepPatch& deep : later_) deepPatches_.mark(deep);
+    const int levels = k - kMostLevelsOfTile;
+    if (levels <= 0 || patch.quadrants != kAllQuadrants) return sink_.patch(patch, k, level);
+    task_.later.push_back({std::int64_t{1} << (2 * levels), std::ldexp(1.0, 2 * k),
+                           [&sinks = sinks_, patch, levels, level](std::int64_t tile) {
+                             sinks.local().patch(tileOf(patch, levels, tile), kMostLevelsOfTile,
+                                                 level);
+                           }});
   }
 
  private:
-  static double verticesOf(const VertexSink& sink) {
-    return std::accumulate(sink.vertices().begin(), sink.vertices().end(), 0.0);
-  }
-
+  ThreadSinks& sinks_;
   VertexSink& sink_;
-  DeepPatches& deepPatches_;
-  std::shared_ptr<SubmeshPart> part_;
-  std::vector<DeepPatch> later_;
-  double verticesBefore_;
-  double deepVertices_ = 0;
+  SubmeshTask& task_;
 };
 
-/// Share of each submesh in the work. The shares add up to 1.
-std::vector<double> partsOf(const Partition& partition, const PolygonMesh& mesh) {
-  std::vector<double> parts(partition.size(), 0.0);
-  constexpr std::size_t kSubmeshesPerTask = 16;
-  parallelForEach(partition.size(), kSubmeshesPerTask, [&](Index s) {
-    for (const Index f : partition.submesh(s))
-      parts[s] += workOfSurface(areaOf(mesh, f), mesh.faceSize(f));
-  });
-  const double all = std::accumulate(parts.begin(), parts.end(), 0.0);
-  for (double& part : parts) part /= all;
-  return parts;
+double verticesOf(const VertexSink& sink) {
+  return std::accumulate(sink.vertices().begin(), sink.vertices().end(), 0.0);
 }
 
-void markSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& options, Progress& progress,
-                   ThreadSinks& sinks, SurfaceReport& report) {
-  const Partition partition = coverGreedily(base.mesh, base.adjacency, options.submeshFaces);
-  report.submeshes += partition.size();
-  const std::vector<double> parts =
-      progress.watched() ? partsOf(partition, base.mesh) : std::vector<double>(partition.size());
-  tbb::enumerable_thread_specific<LocalSurface> surfaces([&] { return LocalSurface(base); });
-  DeepPatches deepPatches(sinks, progress, options.localize == Localize::kDuring);
-  parallelForEach(partition.size(), 1, [&](Index s) {
-    progress.check();
-    SubmeshSink sink(sinks.local(), deepPatches, std::make_shared<SubmeshPart>(progress, parts[s]));
-    surfaces.local().emit(partition.submesh(s), sink);
-    sink.finish();
+void markSubmeshes(const Submeshes& submeshes, Progress& progress, ThreadSinks& sinks) {
+  const auto walkerOfThread = [&] { return LocalSurface(submeshes.base); };
+  runSubmeshes(submeshes, progress, 1, walkerOfThread, [&](LocalSurface& local, SubmeshTask& task) {
+    SubmeshSink sink(sinks, task);
+    const double before = verticesOf(sinks.local());
+    local.emit(task.faces, sink);
+    task.walked = verticesOf(sinks.local()) - before;
   });
-  deepPatches.wait();
 }
 
 /// Bytes of the next step, and of the tables that tell which of its vertices are deep enough.
@@ -244,10 +118,13 @@ void markSurface(const SubdivisionLevel& base, const SurfaceOptions& options,
                  const MemoryBudget& budget, Progress& progress, ActiveVoxels& grid,
                  SurfaceReport& report) {
   ThreadSinks sinks([&] { return VertexSink(grid); });
-  if (options.localize == Localize::kOff)
+  if (options.localize == Localize::kOff) {
     markWhole(base, budget, progress, grid, sinks.local());
-  else
-    markSubmeshes(base, options, progress, sinks, report);
+  } else {
+    const Submeshes submeshes = cutIntoSubmeshes(base, options);
+    report.submeshes += submeshes.partition.size();
+    markSubmeshes(submeshes, progress, sinks);
+  }
   for (VertexSink& sink : sinks) {
     sink.flush();
     for (std::size_t level = 0; level < report.vertices.size(); ++level)

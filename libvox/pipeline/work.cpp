@@ -19,6 +19,10 @@ double workOfDensity(double area) {
   return 13 * area;
 }
 
+double workOfLevelSet(double area) {
+  return 250 * area;
+}
+
 double workOfNormals(double area) {
   return 100 * area;
 }
