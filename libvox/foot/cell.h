@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 namespace vox {
@@ -66,12 +65,12 @@ struct BinnedCell {
   CellKind kind;
 };
 
-/// The cells that one thread has made. References to cells stay valid.
+/// The cells that one thread has made.
 struct CellStore {
   std::uint16_t number = 0;
-  std::deque<NewtonCell> newton;
-  std::deque<PolynomialCell> polynomial;
-  std::deque<TriangleCell> triangles;
+  std::vector<NewtonCell> newton;
+  std::vector<PolynomialCell> polynomial;
+  std::vector<TriangleCell> triangles;
   std::vector<BinnedCell> binned;
   const std::vector<openvdb::Coord>* onlyBins = nullptr;  ///< if not null: the bins of interest
 

@@ -92,32 +92,57 @@ struct CellMaker::Shape {
       for (float& x : g) x /= area;
   }
 
+  /// Measures at 4 x 4 points. Loops run over the points, so that the compiler uses vectors.
   void measure(float reach) {
+    constexpr std::size_t kPoints = 16;
+    using Points = std::array<float, kPoints>;
     constexpr std::array<float, 4> kPlaces = {-1, -1.0F / 3, 1.0F / 3, 1};
-    float least = std::numeric_limits<float>::max();
-    float most = 0;
-    float turn = 0;  // square of the sine
-    for (const float b : kPlaces)
-      for (const float a : kPlaces) {
-        const Jet jet(c, a, b);
-        Float3 n = jet.normal();
-        const float size = sizeOf(n);
-        least = std::min(least, size);
-        most = std::max(most, size);
-        for (float& x : n) x /= std::max(size, 1e-30F);
-        Float3 d;
-        for (std::size_t k = 0; k < 3; ++k) d[k] = jet.s[k] - c[0][k];
-        for (std::size_t k = 0; k < 2; ++k) {
-          const float at = dot(guess[k], d);
-          flat[k] = std::max(flat[k], std::abs(at));
-          tube[k].add(at, reach * std::abs(dot(guess[k], n)));
-        }
-        tube[2].add(dot(normal, d), 0);
-        const float cosine = dot(normal, n);
-        turn = std::max(turn, cosine < 0 ? 1 : 1 - cosine * cosine);
-        for (std::size_t k = 0; k < 3; ++k) box[k].add(jet.s[k], reach * std::abs(n[k]));
+    std::array<Points, 3> s, sa, sb, n;
+    for (std::size_t x = 0; x < 3; ++x)
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        const float a = kPlaces[i % 4], b = kPlaces[i / 4];
+        const float r1 = c[3][x] + a * (c[4][x] + a * c[5][x]);
+        const float r2 = c[6][x] + a * (c[7][x] + a * c[8][x]);
+        const float d1 = c[4][x] + 2 * a * c[5][x];
+        const float d2 = c[7][x] + 2 * a * c[8][x];
+        s[x][i] = c[0][x] + a * (c[1][x] + a * c[2][x]) + b * (r1 + b * r2);
+        sa[x][i] = c[1][x] + 2 * a * c[2][x] + b * (d1 + b * d2);
+        sb[x][i] = r1 + 2 * b * r2;
       }
-    if (least < 0.02F * most) badNormal = true;
+    Points sizes;
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      const float nx = sa[1][i] * sb[2][i] - sa[2][i] * sb[1][i];
+      const float ny = sa[2][i] * sb[0][i] - sa[0][i] * sb[2][i];
+      const float nz = sa[0][i] * sb[1][i] - sa[1][i] * sb[0][i];
+      const float size = std::sqrt(nx * nx + ny * ny + nz * nz);
+      const float inverse = 1 / std::max(size, 1e-30F);
+      sizes[i] = size;
+      n[0][i] = nx * inverse, n[1][i] = ny * inverse, n[2][i] = nz * inverse;
+    }
+    Points at, spread;
+    const auto alongFrame = [&](const Float3& axis) {
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        at[i] = axis[0] * (s[0][i] - c[0][0]) + axis[1] * (s[1][i] - c[0][1]) +
+                axis[2] * (s[2][i] - c[0][2]);
+        spread[i] = axis[0] * n[0][i] + axis[1] * n[1][i] + axis[2] * n[2][i];
+      }
+    };
+    for (std::size_t k = 0; k < 2; ++k) {
+      alongFrame(guess[k]);
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        flat[k] = std::max(flat[k], std::abs(at[i]));
+        tube[k].add(at[i], reach * std::abs(spread[i]));
+      }
+    }
+    alongFrame(normal);
+    float turn = 0;  // square of the sine
+    for (std::size_t i = 0; i < kPoints; ++i) {
+      tube[2].add(at[i], 0);
+      turn = std::max(turn, spread[i] < 0 ? 1 : 1 - spread[i] * spread[i]);
+      for (std::size_t k = 0; k < 3; ++k) box[k].add(s[k][i], reach * std::abs(n[k][i]));
+    }
+    const auto [least, most] = std::minmax_element(sizes.begin(), sizes.end());
+    if (*least < 0.02F * *most) badNormal = true;
     sine = std::sqrt(std::max(0.0F, turn));
     const auto wider = [&](std::size_t k) {
       return std::max(-tube[k].low, tube[k].high) - flat[k];
