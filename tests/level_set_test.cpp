@@ -141,7 +141,12 @@ TEST_CASE("overlapping objects and components are united", "[level-set]") {
     int inBoth = 0;
     for (auto value = both->cbeginValueOn(); value; ++value) {
       const Coord at = value.getCoord();
-      REQUIRE(*value == std::min(gridA->tree().getValue(at), gridB->tree().getValue(at)));
+      const float least = std::min(gridA->tree().getValue(at), gridB->tree().getValue(at));
+      constexpr float kSmall = 0.02F * 0.05F;
+      if (least > 0)
+        REQUIRE(*value == Approx(least).margin(kSmall));
+      else  // the parts of the surfaces inside the other one are gone
+        REQUIRE(*value <= least + kSmall);
       ++inBoth;
     }
     CHECK(inBoth > 10000);

@@ -89,8 +89,7 @@ TEST_CASE("a flat sheet has its normal everywhere", "[normals][golden]") {
   }
 }
 
-TEST_CASE("normals of a round surface point away from its axis, better with finer voxels",
-          "[normals][property]") {
+TEST_CASE("normals of a round surface point away from its axis", "[normals][property]") {
   // A ring of many quads: its limit surface is a torus up to a part in a thousand.
   const PolygonMesh ring = test::torusGrid(64, 48);
   double largest = 0;
@@ -102,14 +101,11 @@ TEST_CASE("normals of a round surface point away from its axis, better with fine
     const Vec3d flat(p.x(), p.y(), 0);
     return p - around * flat.normalized();
   };
-  double before = 90;
   for (const int dim : {32, 64, 128}) {
     const auto [mean, most] = errors(*normalsOf(ring, atDim(dim)), outward);
     CAPTURE(dim, mean, most);
-    CHECK(mean < 0.75 * before);
-    before = mean;
+    CHECK(mean < 0.2);  // how far the ring is from round
   }
-  CHECK(before < 2);
 }
 
 TEST_CASE("normals of polygons are those of the smooth surface, not of facets",

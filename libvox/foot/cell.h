@@ -29,6 +29,8 @@ struct NewtonCell {
   Float3 middle;                   ///< surface at a = b = 0
   std::array<Float3, 2> guess;     ///< first a, b of a point x: guess . (x - middle)
   int mostSteps = 0;
+  bool severalStarts = false;     ///< it turns so much that there may be several local minima
+  bool isCurve = false;           ///< a curve of a free boundary: without normals
   float stop = 0;                 ///< a step of fewer parameters is the last one
   // Its place: parameter u of the square of the corner is u + side[0] a, v is v + side[1] b.
   std::uint32_t owner = 0;  ///< CellMaker::firstOwner + number of the corner

@@ -14,6 +14,7 @@ namespace {
 constexpr float kLongestFlat = 20;   // voxels
 constexpr float kLongestCurved = 4;  // voxels
 constexpr float kReachMargin = 0.05F;
+constexpr float kMostSine = 0.5F;  // of the turn of a normal within a cell
 constexpr int kMostDepth = 20;
 
 float sizeOf(const Float3& a) { return length(a); }
@@ -194,7 +195,7 @@ void CellMaker::makeCell(const ParameterBox& part, unsigned sides, int depth) {
   if (byNewton) {
     const float limit = curved || sides != 0 ? kLongestCurved : kLongestFlat;
     if (mayCut && longest > 1.3F * limit) return cut(sideA >= sideB);
-    if (mayCut && (shape.sine > 0.5F || shape.badNormal) && longest > 0.3F)
+    if (mayCut && (shape.sine > kMostSine || shape.badNormal) && longest > 0.3F)
       return cut(sideA < 0.1F ? false : sideB < 0.1F || shape.turnA >= shape.turnB);
     return addNewtonCell(shape, part, sides);
   }
@@ -276,8 +277,12 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   cell.surface = shape.c;
   cell.middle = shape.c[0];
   cell.guess = shape.guess;
+  cell.isCurve = shape.degenerate && piece_->boundarySides != 0;
+  cell.severalStarts = shape.badNormal || shape.sine > kMostSine;
   cell.mostSteps = shape.badNormal ? 10 : 6;
-  cell.stop = options_.newtonStop / std::max({shape.lengthA, shape.lengthB, 1e-20F});
+  // Small cells may be strongly curved: there a small step counts in parameters.
+  constexpr float kMostStop = 0.05F;
+  cell.stop = std::min(kMostStop, options_.newtonStop / std::max(shape.lengthA, shape.lengthB));
   const CornerSquare& square = piece_->square;
   cell.owner = owner();
   cell.u = static_cast<float>(square.u + square.side * (part.u0 + part.u1) / 2);

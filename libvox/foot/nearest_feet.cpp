@@ -35,7 +35,8 @@ class FeetOfBin {
 
   const BinMask& wanted() const { return wanted_; }
 
-  void keepNearest(const Feet& feet, const BinnedCell& cell) {
+  /// @param handicap  voxels, added to the distances
+  void keepNearest(const Feet& feet, const BinnedCell& cell, float handicap) {
     for (std::size_t i = 0; i < feet.count; ++i) {
       const auto x = static_cast<unsigned>(feet.x[i]), y = static_cast<unsigned>(feet.y[i]),
                  z = static_cast<unsigned>(feet.z[i]);
@@ -43,9 +44,10 @@ class FeetOfBin {
       const unsigned voxel = voxelInLeaf(x, y, z);
       const std::uint64_t bit = std::uint64_t{1} << (voxel & 63U);
       std::uint64_t& found = leaf.found[voxel >> 6];
-      if ((found & bit) != 0 && keyOf(leaf.distance[voxel]) <= keyOf(feet.t[i])) continue;
+      const float t = feet.t[i] + std::copysign(handicap, feet.t[i]);
+      if ((found & bit) != 0 && keyOf(leaf.distance[voxel]) <= keyOf(t)) continue;
       found |= bit;
-      leaf.distance[voxel] = feet.t[i];
+      leaf.distance[voxel] = t;
       leaf.place[voxel] = {&cell, feet.a[i], feet.b[i]};
     }
   }
@@ -84,7 +86,12 @@ void forEachFoot(const FootBins& bins, const openvdb::MaskTree& voxels, Progress
     progress.done(part / static_cast<double>(bins.count()));
     if (!work.nearest.begin(voxels, origin)) return;
     for (const BinnedCell& cell : bins.cellsOf(bin)) {
-      const auto keep = [&](const Feet& feet) { work.nearest.keepNearest(feet, cell); };
+      // A surface with normals wins over the curve in which it ends.
+      constexpr float kHandicapOfCurve = 0.01F;
+      const bool isCurve = cell.kind == CellKind::kNewton && bins.newton(cell).isCurve;
+      const auto keep = [&](const Feet& feet) {
+        work.nearest.keepNearest(feet, cell, isCurve ? kHandicapOfCurve : 0);
+      };
       if (cell.kind == CellKind::kTriangle)
         scanFeet(bins.triangle(cell), origin, &work.nearest.wanted(), work.feet, keep);
       else

@@ -16,11 +16,34 @@
 HWY_BEFORE_NAMESPACE();
 namespace vox::HWY_NAMESPACE {
 
+/// Steps of Newton's method from a, b on. A lane that has arrived stays where it is, so that it does
+/// not depend on the others.
+HWY_INLINE void descend(const NewtonCell& cell, const V3& x, V& a, V& b) {
+  const D d;
+  const V one = set(1);
+  const V stop = set(cell.stop);
+  auto moving = hn::Eq(one, one);
+  for (int step = 0; step < cell.mostSteps && !hn::AllFalse(d, moving); ++step) {
+    V nextA = a;
+    V nextB = b;
+    const V change = newtonStep(cell.surface, x, one, nextA, nextB);
+    a = hn::IfThenElse(moving, nextA, a);
+    b = hn::IfThenElse(moving, nextB, b);
+    moving = hn::And(moving, hn::Gt(change, stop));
+  }
+}
+
+HWY_INLINE V squareDistance(const Biquadratic& surface, const V3& x, V a, V b) {
+  JetV jet;
+  jetAt(surface, a, b, jet);
+  const V3 r = {hn::Sub(x[0], jet.s[0]), hn::Sub(x[1], jet.s[1]), hn::Sub(x[2], jet.s[2])};
+  return dot3(r, r);
+}
+
 void solve(const NewtonCell& cell, const Float3& shift, Feet& feet) {
   const D d;
   const std::size_t lanes = hn::Lanes(d);
   const V one = set(1);
-  const V stop = set(cell.stop);
   const auto within = [&](V p) { return hn::Min(hn::Max(p, hn::Neg(one)), one); };
   for (std::size_t i = 0; i < feet.count; i += lanes) {
     const V3 x = {hn::Sub(hn::Load(d, feet.x.data() + i), set(shift[0])),
@@ -30,15 +53,20 @@ void solve(const NewtonCell& cell, const Float3& shift, Feet& feet) {
                            hn::Sub(x[2], set(cell.middle[2]))};
     V a = within(along(cell.guess[0], fromMiddle));
     V b = within(along(cell.guess[1], fromMiddle));
-    // A lane that has arrived stays where it is, so that it does not depend on the others.
-    auto moving = hn::Eq(one, one);
-    for (int step = 0; step < cell.mostSteps && !hn::AllFalse(d, moving); ++step) {
-      V nextA = a;
-      V nextB = b;
-      const V change = newtonStep(cell.surface, x, one, nextA, nextB);
-      a = hn::IfThenElse(moving, nextA, a);
-      b = hn::IfThenElse(moving, nextB, b);
-      moving = hn::And(moving, hn::Gt(change, stop));
+    descend(cell, x, a, b);
+    if (cell.severalStarts) {
+      V least = squareDistance(cell.surface, x, a, b);
+      for (const float startA : {-0.6F, 0.6F})
+        for (const float startB : {-0.6F, 0.6F}) {
+          V otherA = set(startA);
+          V otherB = set(startB);
+          descend(cell, x, otherA, otherB);
+          const V other = squareDistance(cell.surface, x, otherA, otherB);
+          const auto nearer = hn::Lt(other, least);
+          a = hn::IfThenElse(nearer, otherA, a);
+          b = hn::IfThenElse(nearer, otherB, b);
+          least = hn::Min(other, least);
+        }
     }
     JetV jet;
     jetAt(cell.surface, a, b, jet);

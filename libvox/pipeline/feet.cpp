@@ -33,7 +33,6 @@ FootSurfaces::Flat flatTriangles(const PolygonMesh& mesh) {
     const auto face = mesh.face(f);
     for (const auto& triangle : triangles) {
       flat.triangles.addFace(triangle);
-      flat.faces.push_back(f);
       for (const Index v : triangle) {
         const auto at = std::find(face.begin(), face.end(), v) - face.begin();
         flat.corners.push_back(mesh.faceOffsets[f] + static_cast<Index>(at));
@@ -64,20 +63,11 @@ void removeFound(const openvdb::Coord& origin, const LeafFeet& feet, openvdb::Ma
 
 }  // namespace
 
-std::size_t FootSurfaces::surfaceOf(std::uint32_t owner) const {
-  const auto next = std::upper_bound(firstOwner.begin(), firstOwner.end(), owner);
-  return static_cast<std::size_t>(next - firstOwner.begin()) - 1;
-}
-
 FootSurfaces footSurfaces(std::span<const PreparedSurface> surfaces) {
-  FootSurfaces all{surfaces, {}, {}};
-  std::uint32_t owner = 0;
-  for (const PreparedSurface& surface : surfaces) {
-    const bool flat = levelOf(surface.way) == 0;
-    all.flat.push_back(flat ? flatTriangles(surface.base.mesh) : FootSurfaces::Flat{});
-    all.firstOwner.push_back(owner);
-    owner += flat ? all.flat.back().triangles.faceCount() : surface.base.mesh.cornerCount();
-  }
+  FootSurfaces all{surfaces, {}};
+  for (const PreparedSurface& surface : surfaces)
+    all.flat.push_back(levelOf(surface.way) == 0 ? flatTriangles(surface.base.mesh)
+                                                 : FootSurfaces::Flat{});
   return all;
 }
 

@@ -21,13 +21,8 @@ struct FootSurfaces {
   struct Flat {
     PolygonMesh triangles;
     std::vector<Index> corners;
-    std::vector<Index> faces;  ///< of the base mesh, one per triangle
   };
   std::vector<Flat> flat;
-  std::vector<std::uint32_t> firstOwner;  ///< of the cells of each surface
-
-  /// The surface of a cell.
-  std::size_t surfaceOf(std::uint32_t owner) const;
 };
 
 /// Calls visit(bins, origin of a leaf, feet) until every voxel had a foot, if it has one at all:

@@ -39,10 +39,13 @@ double errorAsQuad(const Patch& patch, bool inF, const Vec3d& image) {
     const double size = n.norm();
     return size > 0 ? std::abs(n.dot(difference)) / size : difference.norm();
   };
-  // The normal at the vertex alone would pass a flat face on a curved surface.
-  const Vec3d atVertex = (p[2][1] - p[0][1]).cross(p[1][2] - p[1][0]);
-  const Vec3d atFace = (far - p[1][1]).cross(b - a);
-  return kPerDifference * std::max(along(atVertex), along(atFace));
+  // A shift along the surface is an error as far as the normal turns: so all normals count, at the
+  // vertex and in the four quads around it.
+  double largest = along((p[2][1] - p[0][1]).cross(p[1][2] - p[1][0]));
+  for (const std::size_t u : {0U, 1U})
+    for (const std::size_t v : {0U, 1U})
+      largest = std::max(largest, along((p[u + 1][v + 1] - p[u][v]).cross(p[u][v + 1] - p[u + 1][v])));
+  return kPerDifference * largest;
 }
 
 /// Emits a curve of the surface as a piece without width.
@@ -75,8 +78,21 @@ void emitPiece(const Patch& patch, std::uint8_t sides, const CornerSquare& squar
   }
 }
 
+/// The sides of a piece that its quarters in R, L, F and the V-face have.
+constexpr unsigned kSidesInR = kSideU1 | kSideV0;
+constexpr unsigned kSidesInL = kSideU0 | kSideV1;
+constexpr unsigned kSidesInF = kSideU1 | kSideV1;
+constexpr unsigned kSidesInVFace = kSideU0 | kSideV0;
+
 std::uint8_t only(std::uint8_t sides, unsigned mask) {
   return static_cast<std::uint8_t>(sides & mask);
+}
+
+/// The sides of a piece turned by 180 degrees.
+std::uint8_t turned(std::uint8_t sides) {
+  const auto move = [&](unsigned from, unsigned to) { return (sides & from) != 0 ? to : 0U; };
+  return static_cast<std::uint8_t>(move(kSideU0, kSideU1) | move(kSideU1, kSideU0) |
+                                   move(kSideV0, kSideV1) | move(kSideV1, kSideV0));
 }
 
 }  // namespace
@@ -87,7 +103,7 @@ void LimitWalk::emit(std::span<const Index> faces, LimitSink& sink) {
   vFaceKnown_.assign(images_.vFaces().size(), false);
   vFaceActive_.assign(points, false);
   for (auto* of : {&vFaceImages_, &vFaceNear_, &vFaceFar_, &vFaceCorner_}) of->resize(points);
-  vFaceSquares_.resize(points);
+  vFacePlaces_.resize(points);
   Index slot = 0;
   for (const Index f : faces) {
     emitFace(f, slot, sink);
@@ -161,11 +177,17 @@ Patch LimitWalk::patchAt(const Corner& at) const {
           static_cast<std::uint8_t>(quadrants)};
 }
 
+/// An extended surface ends in the middle of the faces beyond its boundary edges. Another one ends
+/// where the neighbours of a vertex lack faces.
 std::uint8_t LimitWalk::boundarySidesAt(const Corner& at) const {
-  if (images_.vFace(at.slot()).closed) return 0;
   unsigned sides = 0;
-  if (!images_.edgeFace(at.slot()).interior) sides |= kSideV0;
-  if (!images_.edgeFace(at.previous()).interior) sides |= kSideU0;
+  if (images_.extends()) {
+    if (!images_.edgeFace(at.slot()).interior) sides |= kSideV0;
+    if (!images_.edgeFace(at.previous()).interior) sides |= kSideU0;
+  } else {
+    if (!images_.vFace(at.next()).closed) sides |= kSideU1;
+    if (!images_.vFace(at.previous()).closed) sides |= kSideV1;
+  }
   return static_cast<std::uint8_t>(sides);
 }
 
@@ -198,17 +220,17 @@ void LimitWalk::split(const Corner& at, LimitSink& sink) {
 
   const std::uint8_t sides = boundarySidesAt(at);
   if (split.hasR)
-    emitPiece(split.childInR(), only(sides, kSideV0), at.square().quarter(true, false), sink);
+    emitPiece(split.childInR(), only(sides, kSidesInR), at.square().quarter(true, false), sink);
   if (split.hasL)
-    emitPiece(split.childInL(), only(sides, kSideU0), at.square().quarter(false, true), sink);
+    emitPiece(split.childInL(), only(sides, kSidesInL), at.square().quarter(false, true), sink);
   if (at.size == 4)
-    emitPiece(split.childInF(), 0, at.square().quarter(true, true), sink);
+    emitPiece(split.childInF(), only(sides, kSidesInF), at.square().quarter(true, true), sink);
   else
     joinFace(at, split);
   if (!split.hasVFace) return;
   const CornerSquare inVFace = at.square().quarter(false, false);
   if (vFace.size == 4) {
-    emitPiece(split.childInVFace(), sides, inVFace, sink);
+    emitPiece(split.childInVFace(), only(sides, kSidesInVFace), inVFace, sink);
   } else if (vFace.size > 1) {
     joinVFace(at, split);
   } else {
@@ -240,7 +262,7 @@ void LimitWalk::joinFace(const Corner& at, const VertexSplit& split) {
   if (!joined_) {
     around_.reset(at.size);
     around_.inner = facePoints_;
-    squares_.resize(at.size);
+    places_.resize(at.size);
     joined_ = true;
   }
   const std::size_t i = at.place;
@@ -254,7 +276,7 @@ void LimitWalk::joinFace(const Corner& at, const VertexSplit& split) {
   around_.hasEdge[j] = split.hasL;
   around_.hasCorner[i] = split.hasR && split.hasL && split.hasVFace;
   around_.active[i] = true;
-  squares_[i] = at.square().quarter(true, true);
+  places_[i] = {at.square().quarter(true, true), only(boundarySidesAt(at), kSidesInF)};
 }
 
 /// Makes the corner an active corner of its V-face at level 2. In the V-face the next corner lies
@@ -270,7 +292,8 @@ void LimitWalk::joinVFace(const Corner& at, const VertexSplit& split) {
   vFaceFar_[j] = split.r[0];
   vFaceCorner_[i] = split.f0;
   vFaceActive_[i] = true;
-  vFaceSquares_[i] = at.square().quarter(false, false).turned();
+  vFacePlaces_[i] = {at.square().quarter(false, false).turned(),
+                     turned(only(boundarySidesAt(at), kSidesInVFace))};
 }
 
 void LimitWalk::emitVFaces(LimitSink& sink) {
@@ -287,19 +310,18 @@ void LimitWalk::emitVFaces(LimitSink& sink) {
     copy(vFaceNear_, vFace_.near);
     copy(vFaceFar_, vFace_.far);
     copy(vFaceCorner_, vFace_.corner);
-    copy(vFaceSquares_, squares_);
+    copy(vFacePlaces_, places_);
     vFace_.real = vFace.fan;
     emitAround(vFace_, sink);
   }
 }
 
-/// Emits the surface at the active corners of an extraordinary face of level 2 or more. `squares_`
-/// has the squares of these corners.
+/// Emits the surface at the active corners of an extraordinary face of level 2 or more. `places_`
+/// tells where these corners are.
 void LimitWalk::emitAround(ExtraordinaryFace& face, LimitSink& sink) {
   const std::size_t n = face.inner.size();
   next_ = face;
   innerImages_.resize(n);
-  std::vector<CornerSquare>& squares = squares_;
   for (int level = 2;; ++level) {
     requireLevelInRange(level);
     faceImages_.of(face.inner, innerImages_);
@@ -319,22 +341,20 @@ void LimitWalk::emitAround(ExtraordinaryFace& face, LimitSink& sink) {
       if (face.active[i]) fine = errorAsQuad(asQuad(i), true, innerImages_[i]) <= tolerance_;
     for (std::size_t i = 0; i < n; ++i) {
       if (!face.active[i]) continue;
-      std::uint8_t sides = 0;
-      if (face.mirrored() && i + 1 == face.real) sides |= kSideU1;
-      if (face.mirrored() && i == 0) sides |= kSideV1;
+      auto& [square, sides] = places_[i];
       if (fine) {
-        emitPiece(asQuad(i), sides, squares[i], sink);
+        emitPiece(asQuad(i), sides, square, sink);
         continue;
       }
       const std::size_t j = face.before(i);
       const VertexSplit split = face.splitAt(innerImages_, i);
       if (split.hasR)
-        emitPiece(split.childInR(), only(sides, kSideU1), squares[i].quarter(true, false), sink);
+        emitPiece(split.childInR(), only(sides, kSidesInR), square.quarter(true, false), sink);
       if (split.hasL)
-        emitPiece(split.childInL(), only(sides, kSideV1), squares[i].quarter(false, true), sink);
+        emitPiece(split.childInL(), only(sides, kSidesInL), square.quarter(false, true), sink);
       if (split.hasVFace)
-        emitPiece(split.childInVFace(), 0, squares[i].quarter(false, false), sink);
-      squares[i] = squares[i].quarter(true, true);
+        emitPiece(split.childInVFace(), 0, square.quarter(false, false), sink);
+      square = square.quarter(true, true);
       next_.near[i] = split.r[0];
       next_.far[i] = split.r[1];
       next_.near[j] = split.l[1];

@@ -29,7 +29,7 @@ class LimitWalk {
   /// @param base       level 0, in index space: an oriented manifold with one fan of faces at each
   ///   vertex
   /// @param tolerance  voxels
-  explicit LimitWalk(const SubdivisionLevel& base, double tolerance = 0.002)
+  explicit LimitWalk(const SubdivisionLevel& base, double tolerance = 0.001)
       : images_(base), tolerance_(tolerance) {}
 
   /// Gives the sink the pieces that the corners of some faces own.
@@ -64,6 +64,12 @@ class LimitWalk {
   void emitAround(ExtraordinaryFace& face, LimitSink& sink);
   void emitBoundaryCorner(BoundaryCorner corner, CornerSquare square, LimitSink& sink);
 
+  /// Where an active corner of an extraordinary face is.
+  struct ActivePlace {
+    CornerSquare square;
+    std::uint8_t boundarySides = 0;
+  };
+
   LocalImages images_;
   double tolerance_;
   FaceImages faceImages_;
@@ -73,10 +79,9 @@ class LimitWalk {
   std::vector<Vec3d> vFaceNear_, vFaceFar_,
       vFaceCorner_;  // as in ExtraordinaryFace, per point of a V-face
   std::vector<std::uint8_t> vFaceActive_;
-  std::vector<CornerSquare> vFaceSquares_;
-  ExtraordinaryFace around_;           // the face at level 2, if it is not a quad
-  std::vector<CornerSquare> squares_;  // of the corners of around_
-  bool joined_ = false;                // whether around_ has active corners
+  std::vector<ActivePlace> vFacePlaces_, places_;  // per point of a V-face; of the face at hand
+  ExtraordinaryFace around_;                       // the face at level 2, if it is not a quad
+  bool joined_ = false;                            // whether around_ has active corners
   ExtraordinaryFace vFace_, next_;
   std::vector<Vec3d> innerImages_;
 };

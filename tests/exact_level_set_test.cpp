@@ -1,0 +1,70 @@
+// Level sets against exact closest points of the limit surface.
+
+#include "libvox/grid/openvdb.h"
+#include "libvox/pipeline/convert.h"
+#include "tests/closest_point.h"
+#include "tests/level_set_errors.h"
+#include "tests/repaired_level.h"
+#include "tests/scenes.h"
+#include "tests/shapes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace vox;
+using test::sceneOf;
+
+namespace {
+
+constexpr int kDeepEnough = 14;  // triangles of the truth are 2^-14 of a face
+constexpr std::size_t kSamples = 2000;
+
+openvdb::FloatGrid::ConstPtr exactSurfaceOf(const PolygonMesh& mesh, double voxelSize, double band) {
+  ConvertOptions options;
+  options.voxelSize = voxelSize;
+  options.grids = std::vector{GridKind::kSurface};
+  options.volume.band = band;
+  const Conversion conversion = convert(sceneOf({mesh}), options);
+  return openvdb::gridConstPtrCast<openvdb::FloatGrid>(
+      openvdb::GridBase::ConstPtr(conversion.grids.at(0)));
+}
+
+double voxelSizeFor(const PolygonMesh& mesh, double voxelsAcross) {
+  return usedBox(mesh).longestSide() / voxelsAcross;
+}
+
+void requireExact(const PolygonMesh& mesh, double voxelsAcross, double band) {
+  const double voxelSize = voxelSizeFor(mesh, voxelsAcross);
+  const test::ClosestPoint truth(test::repairedLevel(mesh, 1 / voxelSize), kDeepEnough);
+  const auto grid = exactSurfaceOf(mesh, voxelSize, band);
+  const auto errors =
+      test::compareLevelSet(*grid, truth, voxelSize, band, band, kSamples);
+  CAPTURE(errors.rms, errors.largest, errors.active, errors.near);
+  CHECK(errors.rms <= 1e-3);
+  CHECK(errors.largest <= 0.02);
+  CHECK(errors.wrongSigns == 0);
+  CHECK(errors.surplus == 0);
+  CHECK(errors.missing == 0);
+  CHECK(errors.wrongBackgrounds == 0);
+  CHECK(errors.wrongSides == 0);
+}
+
+}  // namespace
+
+TEST_CASE("level sets are exact for all shapes, from a few voxels to many",
+          "[level-set][property]") {
+  for (const auto& shape : test::shapes()) {
+    if (!shape.closed) continue;
+    for (const double voxelsAcross : {0.5, 3.0, 12.0, 50.0, 130.0}) {
+      CAPTURE(shape.name, voxelsAcross);
+      requireExact(shape.mesh, voxelsAcross, 3);
+    }
+  }
+}
+
+TEST_CASE("level sets are exact where the band is wider than the object", "[level-set][property]") {
+  for (const auto& shape : test::shapes()) {
+    if (!shape.closed) continue;
+    CAPTURE(shape.name);
+    requireExact(shape.mesh, 15, 11);
+  }
+}
