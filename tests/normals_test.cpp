@@ -137,6 +137,7 @@ TEST_CASE("polygons by any rule have unit normals, open or folded", "[normals][p
     for (const auto& shape : *shapes)
       for (const auto boundary : {BoundaryRule::kExtend, BoundaryRule::kFree}) {
         CAPTURE(shape.name, boundary == BoundaryRule::kFree);
+        if (boundary == BoundaryRule::kFree && shape.mesh.faceCount() == 1) continue;  // a dot
         ConvertOptions options = atDim(24);
         options.smoothing.boundary = boundary;
         options.until = StopRule{.angle = 10};

@@ -12,6 +12,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/spin_mutex.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -144,28 +145,38 @@ class BandMaker {
  private:
   /// Of one thread.
   struct Work {
-    FootBrick brick;
+    FootBrick brick, ofGroup;
     Feet feet;
     std::vector<Leaf*> leaves;
     std::uint64_t jumps = 0;
   };
 
+  /// Scans the cells of a bin, group by group.
   void scanBin(std::size_t bin, Work& work) const {
     work.brick.clear();
-    const openvdb::Coord origin = bins_.originOf(bin);
-    for (const BinnedCell& cell : bins_.cellsOf(bin)) {
-      const auto keep = [&](const Feet& feet) { keepLeast(feet, work.brick); };
-      switch (cell.kind) {
-        case CellKind::kNewton:
-          scanFeet(bins_.newton(cell), origin, nullptr, work.feet, keep);
-          break;
-        case CellKind::kPolynomial:
-          scanPolynomials(bins_.polynomial(cell), origin, options_.unsignedDistance, work.brick);
-          break;
-        case CellKind::kTriangle:
-          scanFeet(bins_.triangle(cell), origin, nullptr, work.feet, keep);
-          break;
-      }
+    const auto cells = bins_.cellsOf(bin);
+    for (auto begin = cells.begin(); begin != cells.end();) {
+      const auto end = std::find_if(begin, cells.end(), [&](const BinnedCell& cell) {
+        return cell.group != begin->group;
+      });
+      const bool isFirst = begin == cells.begin();
+      FootBrick& brick = isFirst ? work.brick : work.ofGroup;
+      if (!isFirst) brick.clear();
+      for (; begin != end; ++begin) scanCell(*begin, bins_.originOf(bin), work.feet, brick);
+      if (!isFirst) work.brick.unite(brick);
+    }
+  }
+
+  void scanCell(const BinnedCell& cell, const openvdb::Coord& origin, Feet& feet,
+                FootBrick& brick) const {
+    const auto keep = [&](const Feet& found) { keepLeast(found, brick); };
+    switch (cell.kind) {
+      case CellKind::kNewton:
+        return scanFeet(bins_.newton(cell), origin, nullptr, feet, keep);
+      case CellKind::kPolynomial:
+        return scanPolynomials(bins_.polynomial(cell), origin, options_.unsignedDistance, brick);
+      case CellKind::kTriangle:
+        return scanFeet(bins_.triangle(cell), origin, nullptr, feet, keep);
     }
   }
 

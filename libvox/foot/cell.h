@@ -30,7 +30,7 @@ struct NewtonCell {
   std::array<Float3, 2> guess;     ///< first a, b of a point x: guess . (x - middle)
   int mostSteps = 0;
   bool severalStarts = false;     ///< it turns so much that there may be several local minima
-  bool isCurve = false;           ///< a curve of a free boundary: without normals
+  bool isCurve = false;           ///< a curve in which the surface ends
   float stop = 0;                 ///< a step of fewer parameters is the last one
   // Its place: parameter u of the square of the corner is u + side[0] a, v is v + side[1] b.
   std::uint32_t owner = 0;  ///< CellMaker::firstOwner + number of the corner
@@ -61,7 +61,8 @@ enum class CellKind : std::uint8_t { kNewton, kPolynomial, kTriangle };
 /// A cell in a bin: a cube of 32^3 voxels, aligned, which one task scans.
 struct BinnedCell {
   openvdb::Coord bin;   ///< lowest voxel / 32
-  std::uint32_t owner;  ///< orders the cells of a bin; all cells of an owner are in one store
+  std::uint32_t group;  ///< surfaces of which each has an inside of its own
+  std::uint32_t owner;  ///< orders the cells of a group; all cells of an owner are in one store
   std::uint32_t cell;   ///< index in its store, among the cells of its kind
   std::uint16_t store;
   CellKind kind;
@@ -77,7 +78,8 @@ struct CellStore {
   const std::vector<openvdb::Coord>* onlyBins = nullptr;  ///< if not null: the bins of interest
 
   /// Enters a cell in all bins of interest that its box meets.
-  void bin(const Prism& prism, std::uint32_t owner, std::size_t cell, CellKind kind);
+  void bin(const Prism& prism, std::uint32_t group, std::uint32_t owner, std::size_t cell,
+           CellKind kind);
 };
 
 }  // namespace vox

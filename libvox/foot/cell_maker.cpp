@@ -277,7 +277,7 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   cell.surface = shape.c;
   cell.middle = shape.c[0];
   cell.guess = shape.guess;
-  cell.isCurve = shape.degenerate && piece_->boundarySides != 0;
+  cell.isCurve = piece_->boundarySides == kAllSides;
   cell.severalStarts = shape.badNormal || shape.sine > kMostSine;
   cell.mostSteps = shape.badNormal ? 10 : 6;
   // Small cells may be strongly curved: there a small step counts in parameters.
@@ -289,7 +289,7 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   cell.v = static_cast<float>(square.v + square.side * (part.v0 + part.v1) / 2);
   cell.side = {static_cast<float>(square.side * (part.u1 - part.u0) / 2),
                static_cast<float>(square.side * (part.v1 - part.v0) / 2)};
-  store_.bin(prism, cell.owner, store_.newton.size() - 1, CellKind::kNewton);
+  store_.bin(prism, group(), cell.owner, store_.newton.size() - 1, CellKind::kNewton);
 }
 
 /// Returns false if polynomials are not precise enough.
@@ -302,7 +302,7 @@ bool CellMaker::addPolynomialCell(const Shape& shape) {
     store_.polynomial.pop_back();
     return false;
   }
-  store_.bin(prism, owner(), store_.polynomial.size() - 1, CellKind::kPolynomial);
+  store_.bin(prism, group(), owner(), store_.polynomial.size() - 1, CellKind::kPolynomial);
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include "libvox/foot/cell.h"
 
 #include <cstdint>
+#include <span>
 
 namespace vox {
 
@@ -17,8 +18,10 @@ struct CellOptions {
 class CellMaker : public LimitSink {
  public:
   /// @param firstOwner  added to the numbers of corners, so that several surfaces differ
-  CellMaker(const CellOptions& options, std::uint32_t firstOwner, CellStore& store)
-      : options_(options), firstOwner_(firstOwner), store_(store) {}
+  /// @param groups      of the corners; may be empty: all 0. It must stay valid.
+  CellMaker(const CellOptions& options, std::uint32_t firstOwner,
+            std::span<const std::uint32_t> groups, CellStore& store)
+      : options_(options), firstOwner_(firstOwner), groups_(groups), store_(store) {}
 
   void piece(const LimitPiece& piece) override;
 
@@ -32,8 +35,11 @@ class CellMaker : public LimitSink {
   bool addPolynomialCell(const Shape& shape);
   std::uint32_t owner() const { return firstOwner_ + piece_->square.corner; }
 
+  std::uint32_t group() const { return groups_.empty() ? 0 : groups_[piece_->square.corner]; }
+
   CellOptions options_;
   std::uint32_t firstOwner_;
+  std::span<const std::uint32_t> groups_;
   CellStore& store_;
   const LimitPiece* piece_ = nullptr;
 };

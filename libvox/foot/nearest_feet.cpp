@@ -86,7 +86,7 @@ void forEachFoot(const FootBins& bins, const openvdb::MaskTree& voxels, Progress
     progress.done(part / static_cast<double>(bins.count()));
     if (!work.nearest.begin(voxels, origin)) return;
     for (const BinnedCell& cell : bins.cellsOf(bin)) {
-      // A surface with normals wins over the curve in which it ends.
+      // A surface wins over the curve in which it ends.
       constexpr float kHandicapOfCurve = 0.01F;
       const bool isCurve = cell.kind == CellKind::kNewton && bins.newton(cell).isCurve;
       const auto keep = [&](const Feet& feet) {

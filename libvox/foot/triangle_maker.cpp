@@ -74,12 +74,14 @@ TriangleMaker::TriangleMaker(const PolygonMesh& mesh, float reach)
     }
 }
 
-void TriangleMaker::add(Index begin, Index end, std::uint32_t firstOwner, CellStore& store) const {
+void TriangleMaker::add(Index begin, Index end, std::uint32_t firstOwner, std::uint32_t group,
+                        CellStore& store) const {
   for (Index f = begin; f != end; ++f)
-    if (!normals_[f].isZero(0)) addTriangle(f, firstOwner + f, store);
+    if (!normals_[f].isZero(0)) addTriangle(f, firstOwner + f, group, store);
 }
 
-void TriangleMaker::addTriangle(Index f, std::uint32_t owner, CellStore& store) const {
+void TriangleMaker::addTriangle(Index f, std::uint32_t owner, std::uint32_t group,
+                                CellStore& store) const {
   const auto face = mesh_.face(f);
   const auto& points = mesh_.points;
   Prism prism;
@@ -133,7 +135,7 @@ void TriangleMaker::addTriangle(Index f, std::uint32_t owner, CellStore& store) 
     cell.edgeNormals[i] = asFloats(edgeNormals_[mesh_.faceOffsets[f] + static_cast<Index>(i)]);
     cell.vertexNormals[i] = asFloats(vertexNormals_[face[i]]);
   }
-  store.bin(prism, owner, store.triangles.size() - 1, CellKind::kTriangle);
+  store.bin(prism, group, owner, store.triangles.size() - 1, CellKind::kTriangle);
 }
 
 }  // namespace vox

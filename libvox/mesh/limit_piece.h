@@ -28,6 +28,7 @@ struct CornerSquare {
 
 /// Sides of a piece that lie on the boundary of the surface.
 enum BoundarySide : std::uint8_t { kSideU0 = 1, kSideU1 = 2, kSideV0 = 4, kSideV1 = 8 };
+inline constexpr std::uint8_t kAllSides = 15;  ///< of a piece that is a curve of a free boundary
 
 /// A piece of the limit surface: a biquadratic B-spline with 3 x 3 control points, over the
 /// parameters 0 .. 1. u, v and the outward normal are right-handed.

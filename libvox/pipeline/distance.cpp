@@ -29,6 +29,7 @@ struct Part {
   std::size_t surface;
   const MeshComponent* component;
   Box box;  // of its control points, which hold the surface; index space
+  std::uint32_t group = 0;  // parts of a group have their inside in common
 
   bool isClosed() const { return component->side != MeshComponent::Side::kNoInside; }
 };
@@ -54,30 +55,84 @@ bool mayMeet(const std::vector<Part>& parts) {
 
 bool facesInward(const Part& part) { return part.component->side == MeshComponent::Side::kIn; }
 
-/// Counts how often the inner side of a surface is solid beyond the voxels that it crosses.
+/// Makes each part a group of its own; but cavities join the smallest part around them.
+void setGroups(std::vector<Part>& parts) {
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i].group = static_cast<std::uint32_t>(i);
+  const auto sizeOf = [](const Part& part) { return (part.box.high - part.box.low).prod(); };
+  for (Part& cavity : parts) {
+    if (!facesInward(cavity)) continue;
+    const Part* around = nullptr;
+    for (const Part& part : parts)
+      if (!facesInward(part) && (part.box.low.array() <= cavity.box.low.array()).all() &&
+          (part.box.high.array() >= cavity.box.high.array()).all() &&
+          (around == nullptr || sizeOf(part) < sizeOf(*around)))
+        around = &part;
+    if (around != nullptr) cavity.group = around->group;
+  }
+}
+
+/// How often the inner side of a part is solid, beyond the voxels that surfaces cross.
+struct Votes {
+  std::atomic<std::uint64_t> solid = 0, all = 0;
+};
+
+/// Counts the votes of parts.
 class InnerSide : public LimitSink {
  public:
-  struct Votes {
-    std::atomic<std::uint64_t> solid = 0, all = 0;
-  };
-  InnerSide(const openvdb::MaskTree& surface, const openvdb::MaskTree& solid, Votes& votes)
-      : surface_(surface), solid_(solid), votes_(votes) {}
+  /// @param parts  number of the part of each corner
+  InnerSide(const Inside& inside, std::span<const std::uint32_t> parts, std::span<Votes> votes)
+      : inside_(inside), parts_(parts), votes_(votes) {}
 
   void piece(const LimitPiece& piece) override {
+    constexpr double kBeyondSurface = 2;  // voxels
     const auto& p = piece.points;
     const Vec3d normal = normalOfTangents(p[2][1] - p[0][1], p[1][2] - p[1][0]);
-    const Vec3d inner = p[1][1] - 2 * normal;
+    const Vec3d inner = p[1][1] - kBeyondSurface * normal;
     const auto voxel = openvdb::Coord::round(openvdb::Vec3d(inner.data()));
-    if (surface_.isValueOn(voxel)) return;
-    ++votes_.all;
-    if (solid_.isValueOn(voxel)) ++votes_.solid;
+    if (inside_.surface->isValueOn(voxel)) return;
+    Votes& votes = votes_[parts_[piece.square.corner]];
+    ++votes.all;
+    if (inside_.solid->isValueOn(voxel)) ++votes.solid;
   }
 
  private:
-  const openvdb::MaskTree& surface_;
-  const openvdb::MaskTree& solid_;
-  Votes& votes_;
+  const Inside& inside_;
+  std::span<const std::uint32_t> parts_;
+  std::span<Votes> votes_;
 };
+
+/// A number for each corner of some parts of a surface.
+template <class NumberOf>
+std::vector<std::uint32_t> numbersOfCorners(const PolygonMesh& mesh, std::span<const Part> parts,
+                                            NumberOf&& numberOf) {
+  std::vector<std::uint32_t> numbers(mesh.cornerCount(), 0);
+  for (const Part& part : parts)
+    for (const Index f : part.component->faces)
+      std::fill_n(numbers.begin() + mesh.faceOffsets[f], mesh.faceSize(f), numberOf(part));
+  return numbers;
+}
+
+/// The faces of some parts of a surface, ascending; none if these are all faces.
+std::vector<Index> facesOf(const PolygonMesh& mesh, std::span<const Part> parts) {
+  std::vector<Index> faces;
+  for (const Part& part : parts)
+    faces.insert(faces.end(), part.component->faces.begin(), part.component->faces.end());
+  std::sort(faces.begin(), faces.end());
+  if (faces.size() == mesh.faceCount()) faces.clear();
+  return faces;
+}
+
+/// Calls visit(parts) for the parts of each surface.
+template <class Visit>
+void forEachSurface(const std::vector<Part>& parts, Visit&& visit) {
+  for (auto begin = parts.begin(); begin != parts.end();) {
+    const auto end = std::find_if(begin, parts.end(), [&](const Part& part) {
+      return part.surface != begin->surface;
+    });
+    visit(std::span<const Part>(begin, end));
+    begin = end;
+  }
+}
 
 class LevelSetMaker {
  public:
@@ -116,23 +171,32 @@ class LevelSetMaker {
   bool hasSheets() const { return !open_.empty(); }
 
  private:
+  /// How far inside others a surface still counts: the voxels tell less well where surfaces are
+  /// near each other; then the united distances of the parts are right. A part that overlaps itself
+  /// has no such distances.
+  static constexpr double kExposedDepth = 2.2;  // voxels
+  static constexpr double kFoldedDepth = 1.7;   // voxels
   static constexpr const char* kAdvice = "use a smaller --band or larger voxels, or raise --max-memory";
 
   /// Open components that enclose something become closed ones.
   void findEnclosing() {
     findInside();
     std::vector<Part> sheets;
-    for (const Part& part : open_) {
-      InnerSide::Votes votes;
+    forEachSurface(open_, [&](std::span<const Part> parts) {
+      const PreparedSurface& surface = surfaces_[parts[0].surface];
+      std::vector<Votes> votes(parts.size());
+      const std::vector<std::uint32_t> numbers =
+          numbersOfCorners(surface.base.mesh, parts, [&](const Part& part) {
+            return static_cast<std::uint32_t>(&part - parts.data());
+          });
+      const PieceFilter count = [&](LimitSink&) {
+        return std::make_unique<InnerSide>(inside_, numbers, votes);
+      };
       FootCells none({.reach = 0});
-      none.addLimitSurface(
-          surfaces_[part.surface], part.component->faces,
-          [&](LimitSink&) {
-            return std::make_unique<InnerSide>(*inside_.surface, *inside_.solid, votes);
-          },
-          progress_, 0);
-      (2 * votes.solid > votes.all ? closed_ : sheets).push_back(part);
-    }
+      none.addLimitSurface(surface, facesOf(surface.base.mesh, parts), {}, count, progress_, 0);
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        (2 * votes[i].solid > votes[i].all ? closed_ : sheets).push_back(parts[i]);
+    });
     open_ = std::move(sheets);
   }
 
@@ -145,6 +209,7 @@ class LevelSetMaker {
   }
 
   openvdb::FloatTree::Ptr bandOfSolids() {
+    setGroups(closed_);
     constexpr double kFirst = 0.9;  // share of the stage
     const BandOptions options{settings_.band, settings_.band, voxelSize_};
     const bool overlap =
@@ -170,33 +235,40 @@ class LevelSetMaker {
   Band bandOf(const std::vector<Part>& parts, const BandOptions& options, bool byVoxels,
               double share) {
     constexpr double kPartOfCells = 0.3;
-    FootCells cells(
-        {.reach = static_cast<float>(std::max(options.in, options.out) + options.halfThickness)});
-    for (auto begin = parts.begin(); begin != parts.end();) {
-      const std::size_t s = begin->surface;
-      std::vector<Index> faces;
-      for (; begin != parts.end() && begin->surface == s; ++begin)
-        faces.insert(faces.end(), begin->component->faces.begin(), begin->component->faces.end());
-      addCells(surfaces_[s], std::move(faces), byVoxels,
-               kPartOfCells * share / static_cast<double>(surfaces_.size()), cells);
-    }
+    // Where parts overlap, a surface that is not passed on by ExposedPieces must lie within the
+    // reach of the surface around it.
+    const double more = byVoxels ? kExposedDepth + 0.5 : 0;
+    const double reach = std::max(options.in, options.out) + options.halfThickness + more;
+    FootCells cells({.reach = static_cast<float>(reach)});
+    const double shareOfCells = kPartOfCells * share / static_cast<double>(surfaces_.size());
+    forEachSurface(parts, [&](std::span<const Part> ofSurface) {
+      addCells(ofSurface, byVoxels, shareOfCells, cells);
+    });
     budget_.require(cells.bytes(), "the cells of the surface", kAdvice);
     return makeBand(cells.bins(), options, byVoxels ? inside_ : Inside{}, progress_,
                     (1 - kPartOfCells) * share);
   }
 
-  void addCells(const PreparedSurface& surface, std::vector<Index> faces, bool byVoxels,
-                double share, FootCells& cells) const {
-    std::sort(faces.begin(), faces.end());
-    if (levelOf(surface.way))
-      return cells.addTriangles(trianglesOfLevel(surface, faces, budget_, progress_), progress_);
-    if (faces.size() == surface.base.mesh.faceCount()) faces.clear();
+  /// @param parts  of one surface
+  void addCells(std::span<const Part> parts, bool byVoxels, double share, FootCells& cells) const {
+    const PreparedSurface& surface = surfaces_[parts[0].surface];
+    if (levelOf(surface.way)) {
+      for (const Part& part : parts)
+        cells.addTriangles(trianglesOfLevel(surface, part.component->faces, budget_, progress_),
+                           part.group, progress_);
+      return;
+    }
+    const PolygonMesh& mesh = surface.base.mesh;
+    const std::vector<std::uint32_t> groups =
+        numbersOfCorners(mesh, parts, [](const Part& part) { return part.group; });
     PieceFilter filter;
     if (byVoxels)
       filter = [this](LimitSink& next) {
-        return std::make_unique<ExposedPieces>(*inside_.solid, next);
+        return std::make_unique<ExposedPieces>(*inside_.solid,
+                                               closed_.size() > 1 ? kExposedDepth : kFoldedDepth,
+                                               next);
       };
-    cells.addLimitSurface(surface, faces, filter, progress_, share);
+    cells.addLimitSurface(surface, facesOf(mesh, parts), groups, filter, progress_, share);
   }
 
   std::span<const PreparedSurface> surfaces_;

@@ -56,12 +56,15 @@ bool ExposedPieces::isExposed(const LimitPiece& piece, double u, double v) const
   const Vec3d normal = normalOfTangents(atV.value(slopes[0], slopes[1], slopes[2]),
                                         atV.slope(values[0], values[1], values[2]));
   if (normal.isZero(0)) return true;
-  // Just beyond the voxels that the surface itself crosses.
-  constexpr std::array<double, 4> kOffsets = {1.1, 1.6, -1.1, -1.6};
-  return std::any_of(kOffsets.begin(), kOffsets.end(), [&](double offset) {
+  const auto isOutside = [&](double offset) {
     const Vec3d at = point + offset * normal;
     return !solid_.isValueOn(openvdb::Coord::round(openvdb::Vec3d(at.data())));
-  });
+  };
+  constexpr double kBeyondSurface = 1.1;  // beyond the voxels that the surface itself crosses
+  constexpr double kStep = 0.55;
+  for (double offset = kBeyondSurface; offset <= depth_; offset += kStep)
+    if (isOutside(offset) || isOutside(-offset)) return true;
+  return false;
 }
 
 void ExposedPieces::piece(const LimitPiece& piece) {

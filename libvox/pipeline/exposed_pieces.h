@@ -10,7 +10,9 @@ namespace vox {
 class ExposedPieces : public LimitSink {
  public:
   /// @param solid  voxels that surfaces cross or enclose
-  ExposedPieces(const openvdb::MaskTree& solid, LimitSink& next) : solid_(solid), next_(next) {}
+  /// @param depth  how far from the outside a surface is still passed on, voxels
+  ExposedPieces(const openvdb::MaskTree& solid, double depth, LimitSink& next)
+      : solid_(solid), depth_(depth), next_(next) {}
 
   void piece(const LimitPiece& piece) override;
 
@@ -18,6 +20,7 @@ class ExposedPieces : public LimitSink {
   bool isExposed(const LimitPiece& piece, double u, double v) const;
 
   const openvdb::MaskTree& solid_;
+  double depth_;
   LimitSink& next_;
 };
 

@@ -25,8 +25,8 @@ struct CellWalk {
   std::vector<Index> faces;
 
   CellWalk(const SubdivisionLevel& base, const CellOptions& options, std::uint32_t firstOwner,
-           CellStore& store, const PieceFilter& makeFilter)
-      : walk(base), maker(options, firstOwner, store) {
+           std::span<const std::uint32_t> groups, CellStore& store, const PieceFilter& makeFilter)
+      : walk(base), maker(options, firstOwner, groups, store) {
     if (makeFilter) filter = makeFilter(maker);
   }
 
@@ -60,11 +60,13 @@ void FootCells::takeOwners(std::uint64_t count) {
 }
 
 void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vector<Index>& faces,
-                                const PieceFilter& filter, Progress& progress, double part) {
+                                std::span<const std::uint32_t> groups, const PieceFilter& filter,
+                                Progress& progress, double part) {
   const std::uint32_t firstOwner = firstOwner_;
   takeOwners(surface.base.mesh.cornerCount());
   const auto walkOfThread = [&] {
-    return std::make_unique<CellWalk>(surface.base, options_, firstOwner, newStore(), filter);
+    return std::make_unique<CellWalk>(surface.base, options_, firstOwner, groups, newStore(),
+                                      filter);
   };
   runSubmeshes(cutIntoSubmeshes(surface.base, surface.options), progress, part, walkOfThread,
                [&](const std::unique_ptr<CellWalk>& walk, const SubmeshTask& task) {
@@ -72,7 +74,8 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
                });
 }
 
-void FootCells::addTriangles(const PolygonMesh& triangles, Progress& progress) {
+void FootCells::addTriangles(const PolygonMesh& triangles, std::uint32_t group,
+                             Progress& progress) {
   constexpr std::size_t kTrianglesPerTask = 1024;
   const std::uint32_t firstOwner = firstOwner_;
   takeOwners(triangles.faceCount());
@@ -82,7 +85,7 @@ void FootCells::addTriangles(const PolygonMesh& triangles, Progress& progress) {
                     [&](std::size_t begin, std::size_t end) {
                       progress.check();
                       maker.add(static_cast<Index>(begin), static_cast<Index>(end), firstOwner,
-                                *stores.local());
+                                group, *stores.local());
                     });
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,14 +33,17 @@ class FootCells {
   /// Adds the limit surface of some faces of a surface. The cells have the owners firstOwner() +
   /// number of the corner.
   /// @param faces   ascending; empty: all
+  /// @param groups  of the corners (foot/cell.h); empty: all 0
   /// @param filter  may be empty
   /// @param part    the share of this in the current stage of `progress`
   /// @throws LimitError  coordinates are out of range, or there are too many corners
   /// @throws Cancelled
   void addLimitSurface(const PreparedSurface& surface, const std::vector<Index>& faces,
-                       const PieceFilter& filter, Progress& progress, double part);
-  /// Adds the triangles of a mesh. The cells have the owners firstOwner() + number of the triangle.
-  void addTriangles(const PolygonMesh& triangles, Progress& progress);
+                       std::span<const std::uint32_t> groups, const PieceFilter& filter,
+                       Progress& progress, double part);
+  /// Adds the triangles of a mesh, as one group. The cells have the owners firstOwner() + number of
+  /// the triangle.
+  void addTriangles(const PolygonMesh& triangles, std::uint32_t group, Progress& progress);
 
   /// Owner of the first cell that will be added.
   std::uint32_t firstOwner() const { return firstOwner_; }

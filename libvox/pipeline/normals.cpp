@@ -9,13 +9,14 @@
 #include "libvox/volume/vector_grid.h"
 
 #include <array>
+#include <limits>
 
 namespace vox {
 namespace {
 
 openvdb::Vec3s directionOf(const Float3& v) {
   const float size = length(v);
-  return size > 0 ? openvdb::Vec3s(v[0] / size, v[1] / size, v[2] / size) : openvdb::Vec3s(0, 0, 0);
+  return size > std::numeric_limits<float>::min() ? openvdb::Vec3s(v[0] / size, v[1] / size, v[2] / size) : openvdb::Vec3s(0, 0, 0);
 }
 
 /// The normal of a triangle, of its edge or of its vertex, whichever the foot is on.
@@ -43,7 +44,12 @@ openvdb::Vec3SGrid::Ptr makeNormalGrid(const openvdb::MaskGrid& mask,
   const auto normalOf = [&](const FootBins& bins, const FootPlace& at) {
     if (at.cell->kind == CellKind::kTriangle)
       return directionOf(normalAt(bins.triangle(*at.cell), at.a, at.b));
-    return directionOf(Jet(bins.newton(*at.cell).surface, at.a, at.b).normal());
+    const Biquadratic& surface = bins.newton(*at.cell).surface;
+    const openvdb::Vec3s normal = directionOf(Jet(surface, at.a, at.b).normal());
+    // At a corner where two sides are parallel, the surface near it has the normal.
+    constexpr float kNear = 0.9F;
+    if (normal != openvdb::Vec3s(0, 0, 0)) return normal;
+    return directionOf(Jet(surface, kNear * at.a, kNear * at.b).normal());
   };
   visitFeet(feet, mask.tree(), budget, progress, 1,
             [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {

@@ -28,8 +28,11 @@ Vec3d fourthCorner(const Vec3d& centroid, const Vec3d& a, const Vec3d& b, const 
 /// quad. It follows from how much the next vertex in the face differs from the one in the quad.
 /// @param inF    whether the face is the one at u = v = 1, else the one at u = v = 0
 /// @param image  the next vertex in the face
-double errorAsQuad(const Patch& patch, bool inF, const Vec3d& image) {
-  constexpr double kPerDifference = 0.6;
+/// @param faceSize  of the face
+double errorAsQuad(const Patch& patch, bool inF, const Vec3d& image, std::size_t faceSize) {
+  // Differences fall by 4 from level to level around small faces, by 2 around large ones.
+  constexpr std::size_t kLarge = 7;
+  const double perDifference = faceSize < kLarge ? 0.6 : 2;
   const auto& p = patch.points;
   const Vec3d& far = inF ? p[2][2] : p[0][0];
   const Vec3d& a = inF ? p[2][1] : p[0][1];
@@ -45,37 +48,39 @@ double errorAsQuad(const Patch& patch, bool inF, const Vec3d& image) {
   for (const std::size_t u : {0U, 1U})
     for (const std::size_t v : {0U, 1U})
       largest = std::max(largest, along((p[u + 1][v + 1] - p[u][v]).cross(p[u][v + 1] - p[u + 1][v])));
-  return kPerDifference * largest;
-}
-
-/// Emits a curve of the surface as a piece without width.
-void emitCurve(const CurvePoints& curve, const CornerSquare& square, LimitSink& sink) {
-  sink.piece({{curve, curve, curve}, kSideU0 | kSideU1 | kSideV0 | kSideV1, square});
+  return perDifference * largest;
 }
 
 /// Emits the piece of a regular vertex. If faces around the vertex are missing: the curves between
-/// those that exist, to which its descendants converge.
+/// those that exist, to which its descendants converge, as pieces of hardly any width; so they have
+/// normals.
 void emitPiece(const Patch& patch, std::uint8_t sides, const CornerSquare& square,
                LimitSink& sink) {
   if (patch.quadrants == kAllQuadrants) return sink.piece({patch.points, sides, square});
+  constexpr double kWidth = 1e-4;  // of the faces
   const auto& p = patch.points;
   const auto has = [&](unsigned quadrants) { return (patch.quadrants & quadrants) == quadrants; };
-  const auto emitRows = [&](std::size_t i, std::size_t j) {
-    emitCurve({middle(p[i][0], p[j][0]), middle(p[i][1], p[j][1]), middle(p[i][2], p[j][2])},
-              square, sink);
+  /// @param narrowU, narrowV  whether the piece has no width along u, v
+  /// @param u, v              its middle, 0 or 1 where it has no width
+  const auto emitNarrow = [&](bool narrowU, std::size_t u, bool narrowV, std::size_t v) {
+    const auto along = [&](bool narrow, std::size_t at, std::size_t i, const auto& point) -> Vec3d {
+      if (!narrow) return point(i);
+      const Vec3d across = point(at + 1) - point(at);
+      return middle(point(at), point(at + 1)) + (static_cast<double>(i) - 1) * kWidth * across;
+    };
+    LimitPiece piece{{}, kAllSides, square};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        piece.points[i][j] = along(narrowU, u, i, [&](std::size_t k) -> Vec3d {
+          return along(narrowV, v, j, [&](std::size_t l) -> Vec3d { return p[k][l]; });
+        });
+    sink.piece(piece);
   };
-  const auto emitColumns = [&](std::size_t i, std::size_t j) {
-    emitCurve({middle(p[0][i], p[0][j]), middle(p[1][i], p[1][j]), middle(p[2][i], p[2][j])},
-              square, sink);
-  };
-  if (has(1U | 2U)) emitRows(0, 1);
-  if (has(4U | 8U)) emitRows(1, 2);
-  if (has(1U | 4U)) emitColumns(0, 1);
-  if (has(2U | 8U)) emitColumns(1, 2);
-  if (patch.quadrants == 8U) {
-    const Vec3d centre = middle(middle(p[1][1], p[2][2]), middle(p[1][2], p[2][1]));
-    emitCurve({centre, centre, centre}, square, sink);
-  }
+  if (has(1U | 2U)) emitNarrow(true, 0, false, 0);
+  if (has(4U | 8U)) emitNarrow(true, 1, false, 0);
+  if (has(1U | 4U)) emitNarrow(false, 0, true, 0);
+  if (has(2U | 8U)) emitNarrow(false, 0, true, 1);
+  if (patch.quadrants == 8U) emitNarrow(true, 1, true, 1);
 }
 
 /// The sides of a piece that its quarters in R, L, F and the V-face have.
@@ -128,14 +133,15 @@ void LimitWalk::emitFace(Index face, Index firstSlot, LimitSink& sink) {
     const Corner at{firstSlot, i, size, firstNumber + i};
     const Patch patch = patchAt(at);
     const Index vFaceSize = images_.vFace(at.slot()).size;
-    bool fine = size == 4 || errorAsQuad(patch, true, facePoints_[i]) <= tolerance_;
+    bool fine = size == 4 || errorAsQuad(patch, true, facePoints_[i], size) <= tolerance_;
     if (fine && hasVFace(at) && vFaceSize != 4) {
       const Index number = images_.vFaceNumber(at.slot());
       subdivideVFace(number);
       fine = vFaceSize > 1 &&
              errorAsQuad(patch, false,
                          vFaceImages_[images_.vFaces()[number].begin +
-                                      images_.placeInVFace(at.slot())]) <= tolerance_;
+                                      images_.placeInVFace(at.slot())],
+                         vFaceSize) <= tolerance_;
     }
     if (fine) {
       emitPiece(patch, boundarySidesAt(at), at.square(), sink);
@@ -336,16 +342,18 @@ void LimitWalk::emitAround(ExtraordinaryFace& face, LimitSink& sink) {
                  fourthCorner(centroid, face.inner[i], face.inner[k], face.inner[j])}}},
               static_cast<std::uint8_t>(quadrants)};
     };
-    bool fine = true;
-    for (std::size_t i = 0; fine && i < n; ++i)
-      if (face.active[i]) fine = errorAsQuad(asQuad(i), true, innerImages_[i]) <= tolerance_;
+    bool done = true;
+    std::fill(next_.active.begin(), next_.active.end(), false);
     for (std::size_t i = 0; i < n; ++i) {
       if (!face.active[i]) continue;
       auto& [square, sides] = places_[i];
-      if (fine) {
-        emitPiece(asQuad(i), sides, square, sink);
+      const Patch patch = asQuad(i);
+      next_.active[i] = errorAsQuad(patch, true, innerImages_[i], n) > tolerance_;
+      if (!next_.active[i]) {
+        emitPiece(patch, sides, square, sink);
         continue;
       }
+      done = false;
       const std::size_t j = face.before(i);
       const VertexSplit split = face.splitAt(innerImages_, i);
       if (split.hasR)
@@ -361,7 +369,7 @@ void LimitWalk::emitAround(ExtraordinaryFace& face, LimitSink& sink) {
       next_.far[j] = split.l[0];
       next_.corner[i] = split.vFace0;
     }
-    if (fine) return;
+    if (done) return;
     next_.inner = innerImages_;
     std::swap(face, next_);
   }

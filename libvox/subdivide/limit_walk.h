@@ -18,8 +18,8 @@ namespace vox {
 /// limit point of the face, meets its neighbours without a gap and the rings without a kink. The
 /// rings end when the next level would move by less than the tolerance along the normal.
 ///
-/// At a free boundary the surface ends in curves between the faces that exist. Each is a piece whose
-/// three rows of control points are equal.
+/// At a free boundary the surface ends in curves between the faces that exist. Each is a piece of
+/// hardly any width (kAllSides).
 ///
 /// A corner owns its pieces, so if submeshes cover the mesh once, the pieces cover the surface once.
 /// The pieces of a corner come in an order that does not depend on the submeshes; all have the same
