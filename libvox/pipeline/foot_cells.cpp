@@ -78,12 +78,11 @@ void FootCells::addTriangles(const PolygonMesh& triangles, Progress& progress) {
   takeOwners(triangles.faceCount());
   const TriangleMaker maker(triangles, options_.reach);
   tbb::enumerable_thread_specific<CellStore*> stores([&] { return &newStore(); });
-  parallelForRanges(triangles.faceCount(), kTrianglesPerTask,
-                    [&](std::size_t begin, std::size_t end) {
-                      progress.check();
-                      maker.add(static_cast<Index>(begin), static_cast<Index>(end), firstOwner,
-                                *stores.local());
-                    });
+  parallelForRanges(
+      triangles.faceCount(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
+        progress.check();
+        maker.add(static_cast<Index>(begin), static_cast<Index>(end), firstOwner, *stores.local());
+      });
 }
 
 std::uint64_t FootCells::bytes() const {

@@ -52,11 +52,12 @@ openvdb::Vec3SGrid::Ptr makeNormalGrid(const openvdb::MaskGrid& mask,
     }
     return directionOf(Jet(bins.newton(*at.cell).surface, at.a, at.b).normal());
   };
-  visitFeet(feet, mask.tree(), budget, progress, 1,
-            [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
-              openvdb::Vec3s* const values = grid->tree().probeLeaf(origin)->buffer().data();
-              leafFeet.forEachFound([&](unsigned i) { values[i] = normalAt(bins, leafFeet.place[i]); });
-            });
+  visitFeet(
+      feet, mask.tree(), budget, progress, 1,
+      [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
+        openvdb::Vec3s* const values = grid->tree().probeLeaf(origin)->buffer().data();
+        leafFeet.forEachFound([&](unsigned i) { values[i] = normalAt(bins, leafFeet.place[i]); });
+      });
   return grid;
 }
 

@@ -117,9 +117,10 @@ void LimitWalk::emitFace(Index face, Index firstSlot, LimitSink& sink) {
       const Index number = images_.vFaceNumber(at.slot());
       subdivideVFace(number);
       fine = vFaceSize > 1 &&
-             errorAsQuad(patch, false,
-                         vFaceImages_[images_.vFaces()[number].begin +
-                                      images_.placeInVFace(at.slot())]) <= tolerance_;
+             errorAsQuad(
+                 patch, false,
+                 vFaceImages_[images_.vFaces()[number].begin + images_.placeInVFace(at.slot())]) <=
+                 tolerance_;
     }
     if (fine) {
       emitPiece(patch, boundarySidesAt(at), at.square(), sink);
@@ -143,18 +144,18 @@ Patch LimitWalk::patchAt(const Corner& at) const {
   const Vec3d& centre = images_.image(at.slot());
   const Vec3d& next = images_.image(at.next());
   const Vec3d& previous = images_.image(at.previous());
-  const Vec3d opposite =
-      at.size == 4 ? images_.image(at.opposite())
-                   : fourthCorner(centroidOf(images_.imagesOfFace(at.first, at.size)), centre,
-                                  next, previous);
+  const Vec3d opposite = at.size == 4
+                             ? images_.image(at.opposite())
+                             : fourthCorner(centroidOf(images_.imagesOfFace(at.first, at.size)),
+                                            centre, next, previous);
   const auto vFacePoints = std::span(images_.vFacePoints()).subspan(vFace.begin, vFace.size);
   Vec3d beyond = centre;
   if (hasVFace(at) && vFace.size == 4)
     beyond = vFacePoints[images_.placeInVFace(at.slot()) ^ 2U];
   else if (hasVFace(at) && vFace.size > 1)
     beyond = fourthCorner(centroidOf(vFacePoints), centre, left.near, right.near);
-  const unsigned quadrants = 8U | (right.exists ? 4U : 0U) | (left.exists ? 2U : 0U) |
-                             (hasVFace(at) ? 1U : 0U);
+  const unsigned quadrants =
+      8U | (right.exists ? 4U : 0U) | (left.exists ? 2U : 0U) | (hasVFace(at) ? 1U : 0U);
   return {{{{beyond, left.far, left.near},
             {right.near, centre, previous},
             {right.far, next, opposite}}},

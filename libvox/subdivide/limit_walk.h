@@ -18,12 +18,13 @@ namespace vox {
 /// limit point of the face, meets its neighbours without a gap and the rings without a kink. The
 /// rings end when the next level would move by less than the tolerance along the normal.
 ///
-/// At a free boundary the surface ends in curves between the faces that exist. Each is a piece whose
-/// three rows of control points are equal.
+/// At a free boundary the surface ends in curves between the faces that exist. Each is a piece
+/// whose three rows of control points are equal.
 ///
-/// A corner owns its pieces, so if submeshes cover the mesh once, the pieces cover the surface once.
-/// The pieces of a corner come in an order that does not depend on the submeshes; all have the same
-/// bits in every submesh. One object per thread. Source: paper section 4; DESIGN section 18.
+/// A corner owns its pieces, so if submeshes cover the mesh once, the pieces cover the surface
+/// once. The pieces of a corner come in an order that does not depend on the submeshes; all have
+/// the same bits in every submesh. One object per thread. Source: paper section 4; DESIGN
+/// section 18.
 class LimitWalk {
  public:
   /// @param base       level 0, in index space: an oriented manifold with one fan of faces at each
