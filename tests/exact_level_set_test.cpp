@@ -18,7 +18,8 @@ namespace {
 constexpr int kDeepEnough = 14;  // triangles of the truth are 2^-14 of a face
 constexpr std::size_t kSamples = 2000;
 
-openvdb::FloatGrid::ConstPtr exactSurfaceOf(const PolygonMesh& mesh, double voxelSize, double band) {
+openvdb::FloatGrid::ConstPtr exactSurfaceOf(const PolygonMesh& mesh, double voxelSize,
+                                            double band) {
   ConvertOptions options;
   options.voxelSize = voxelSize;
   options.grids = std::vector{GridKind::kSurface};
@@ -36,8 +37,7 @@ void requireExact(const PolygonMesh& mesh, double voxelsAcross, double band) {
   const double voxelSize = voxelSizeFor(mesh, voxelsAcross);
   const test::ClosestPoint truth(test::repairedLevel(mesh, 1 / voxelSize), kDeepEnough);
   const auto grid = exactSurfaceOf(mesh, voxelSize, band);
-  const auto errors =
-      test::compareLevelSet(*grid, truth, voxelSize, band, band, kSamples);
+  const auto errors = test::compareLevelSet(*grid, truth, voxelSize, band, band, kSamples);
   CAPTURE(errors.rms, errors.largest, errors.active, errors.near);
   CHECK(errors.rms <= 1e-3);
   CHECK(errors.largest <= 0.02);

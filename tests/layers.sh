@@ -9,7 +9,7 @@ rank() {
     libvox/core) echo 0 ;;
     libvox/mesh | libvox/options) echo 1 ;;
     libvox/grid) echo 2 ;;
-    libvox/io | libvox/prepare | libvox/localize | libvox/subdivide | libvox/voxelize | libvox/volume) echo 3 ;;
+    libvox/io | libvox/prepare | libvox/localize | libvox/subdivide | libvox/voxelize | libvox/foot | libvox/volume) echo 3 ;;
     libvox/pipeline | libvox/inspect | libvox/render) echo 4 ;;
     apps/*) echo 5 ;;
     tests | tests/*) echo 6 ;;

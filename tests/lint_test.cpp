@@ -1,15 +1,20 @@
 #include "libvox/inspect/lint.h"
 
+#include "libvox/core/parallel.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/inspect/steep_pairs.h"
 #include "libvox/pipeline/convert.h"
 #include "tests/shapes.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 #include <openvdb/tools/ChangeBackground.h>
+#include <openvdb/tools/Diagnostics.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -123,7 +128,96 @@ TEST_CASE("signed distances are checked as such, and must not be called density"
   CHECK(codesOf(lintGrid(*wrong)) == "background sdf-as-fog");
   wrong = sphere->deepCopy();
   wrong->tree().setValueOn({10, 0, 0}, 2.5F);  // a slope of more than one
-  CHECK(codesOf(lintGrid(*wrong)) == "level-set");
+  const auto findings = lintGrid(*wrong);
+  CHECK(codesOf(findings) == "level-set");
+  CHECK_THAT(findings[0].message,
+             Catch::Contains("pairs of neighbouring voxels differ by more than their distance, the "
+                             "first at (9 0 0)"));
+}
+
+TEST_CASE("exact distances are no fault where two parts of a surface are equally near",
+          "[inspect][lint]") {
+  // Half way between two parallel planes the gradient is 0; in the corner between three planes it
+  // is sqrt(3) by one-sided differences.
+  openvdb::initialize();
+  const bool corner = GENERATE(false, true);
+  CAPTURE(corner);
+  auto grid = openvdb::FloatGrid::create(3);
+  grid->setName("surface");
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  for (int x = -4; x <= 4; ++x)
+    for (int y = -4; y <= 4; ++y)
+      for (int z = -4; z <= 4; ++z) {
+        const int d = corner ? std::max({x, y, z}) : 2 - std::abs(z);
+        const auto distance = static_cast<float>(d);
+        if (std::abs(d) < 3)
+          grid->tree().setValueOn({x, y, z}, distance);
+        else
+          grid->tree().setValueOff({x, y, z}, std::copysign(3.0F, distance));
+      }
+  CHECK(codesOf(lintGrid(*grid)).empty());
+  CHECK(!openvdb::tools::checkLevelSet(*grid).empty());
+}
+
+TEMPLATE_TEST_CASE("pairs of voxels that no distances allow are counted, also across leaves",
+                   "[inspect][lint]", openvdb::FloatGrid, openvdb::DoubleGrid) {
+  openvdb::initialize();
+  const double size = GENERATE(0.25, 1.0, 1000.0);
+  const int axis = GENERATE(0, 1, 2);
+  const int at = GENERATE(-9, -1, 3, 7);  // the next voxel may be in another leaf
+  CAPTURE(size, axis, at);
+  auto grid = TestType::create(typename TestType::ValueType(5 * size));
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(size));
+  Coord low(5, 5, 2);
+  low[axis] = at;
+  Coord high = low;
+  ++high[axis];
+  const auto keepOnly = [&](double difference) {
+    grid->tree().clear();
+    grid->tree().setValueOn(low, typename TestType::ValueType(-0.5 * difference * size));
+    grid->tree().setValueOn(high, typename TestType::ValueType(0.5 * difference * size));
+  };
+  keepOnly(1.09);
+  CHECK(steepPairs(*grid).count == 0);
+  keepOnly(1.11);
+  const SteepPairs steep = steepPairs(*grid);
+  CHECK(steep.count == 1);
+  CHECK(steep.first == low);
+  grid->tree().setValueOff(high);
+  CHECK(steepPairs(*grid).count == 0);
+}
+
+TEST_CASE("each axis has its own voxel size, and values of 16 bits may be rounded",
+          "[inspect][lint]") {
+  openvdb::initialize();
+  auto grid = openvdb::FloatGrid::create(5);
+  grid->transform().preScale(openvdb::Vec3d(1, 1, 2));
+  grid->tree().setValueOn({3, 3, 3}, 0);
+  grid->tree().setValueOn({3, 3, 4}, 2);
+  CHECK(steepPairs(*grid).count == 0);
+  grid->tree().setValueOn({3, 4, 3}, 2);
+  CHECK(steepPairs(*grid).count == 1);
+
+  // Between 512 and 1024, values of 16 bits are 0.5 apart.
+  auto far = openvdb::FloatGrid::create(1000);
+  far->tree().setValueOn({0, 0, 7}, 700.0F);
+  far->tree().setValueOn({0, 0, 8}, 701.5F);
+  CHECK(steepPairs(*far).count == 1);
+  far->setSaveFloatAsHalf(true);
+  CHECK(steepPairs(*far).count == 0);
+}
+
+TEST_CASE("the number of steep pairs does not depend on threads", "[inspect][lint][parallel]") {
+  openvdb::initialize();
+  const auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(60, {}, 1);
+  const std::array<Coord, 3> wrong = {Coord(60, 0, 0), Coord(0, -60, 0), Coord(0, 0, 60)};
+  for (const Coord& voxel : wrong) sphere->tree().setValueOn(voxel, 2.9F);
+  const auto count = [&] { return steepPairs(*sphere); };
+  const SteepPairs one = onThreads(1, count);
+  const SteepPairs many = onThreads(8, count);
+  CHECK(one.count > 0);
+  CHECK(one.count == many.count);
+  CHECK(one.first == many.first);
 }
 
 TEST_CASE("values and names of vector grids are checked", "[inspect][lint]") {

@@ -16,14 +16,12 @@
 #include "libvox/grid/mark_brick.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
-#include "libvox/grid/voxel_means.h"
 #include "libvox/io/read_mesh.h"
 #include "libvox/mesh/patch_parts.h"
-#include "libvox/pipeline/normals.h"
+#include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/subdivide/local_surface.h"
-#include "libvox/volume/normal_grid.h"
 #include "libvox/voxelize/tile.h"
 #include "libvox/voxelize/voxel_box.h"
 
@@ -37,6 +35,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace vox::bench {
 namespace {
@@ -182,15 +181,21 @@ void nodes(benchmark::State& state, const Work& work) {
   timeEach(state, [&] { return work.mask->deepCopy(); });
 }
 
-void normals(benchmark::State& state, const Work& work) {
-  Progress unwatched;
-  timeEach(state, [&] {
-    VoxelMeans means(work.mask->tree());
-    addNormals(work.base, {}, {}, unwatched, means);
-    means.fillGaps();
-    return normalGrid(*work.mask, means);
-  });
-  setRate(state, "voxels/s", work.mask->activeVoxelCount());
+/// The grid `normal` without the voxels, which it is made for.
+void normals(benchmark::State& state, const PolygonMesh& mesh) {
+  Scene scene;
+  scene.objects.push_back({"mesh", mesh});
+  ConvertOptions options;
+  options.dim = static_cast<int>(state.range(0));
+  options.grids = std::vector{GridKind::kNormal};
+  options.run.threads = static_cast<int>(state.range(1));
+  std::uint64_t voxels = 0;
+  for (auto _ : state) {
+    const ConvertReport report = convert(scene, options).report;
+    state.SetIterationTime(report.gridsSeconds);
+    voxels = report.activeVoxels;
+  }
+  setRate(state, "voxels/s", voxels);
 }
 
 /// Registers the benchmarks of one mesh.
@@ -218,7 +223,7 @@ void registerOne(const std::string& name, const PolygonMesh& mesh, int dim, bool
     addPart("nodes", nodes);
   }
   add("engine", [=](benchmark::State& state) { engine(state, mesh); });
-  addPart("normals", normals);
+  add("normals", [=](benchmark::State& state) { normals(state, mesh); });
 }
 
 }  // namespace

@@ -200,8 +200,8 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .group("Output");
   command
       .add("--tolerance", arguments.tolerance,
-           "Largest distance, in voxels, from the smooth surface to the polygons that the grid "
-           "surface is computed from (default: the scene's, or 0.05)")
+           "Has no effect any more: the grid surface is computed from the smooth surface itself, "
+           "not from polygons near it")
       .type("T")
       .group("Output");
 }

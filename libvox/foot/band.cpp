@@ -137,8 +137,7 @@ class BandMaker {
       page.node = nullptr;
     }
     if (!options_.unsignedDistance)
-      openvdb::tools::signedFloodFillWithValues(*tree, background_, -insideBackground_, true, 1,
-                                                1);
+      openvdb::tools::signedFloodFillWithValues(*tree, background_, -insideBackground_, true, 1, 1);
     return {tree, jumps_};
   }
 
@@ -156,9 +155,8 @@ class BandMaker {
     work.brick.clear();
     const auto cells = bins_.cellsOf(bin);
     for (auto begin = cells.begin(); begin != cells.end();) {
-      const auto end = std::find_if(begin, cells.end(), [&](const BinnedCell& cell) {
-        return cell.group != begin->group;
-      });
+      const auto end = std::find_if(
+          begin, cells.end(), [&](const BinnedCell& cell) { return cell.group != begin->group; });
       const bool isFirst = begin == cells.begin();
       FootBrick& brick = isFirst ? work.brick : work.ofGroup;
       if (!isFirst) brick.clear();
@@ -207,8 +205,8 @@ class BandMaker {
 
   /// The leaf of some keys; null if no voxel is active.
   Leaf* makeLeaf(const std::uint32_t* keys, const openvdb::Coord& origin, Work& work) const {
-    const LeafSigns signs = inside_.solid == nullptr ? signsByFeet(keys, work)
-                                                     : signsByVoxels(keys, origin);
+    const LeafSigns signs =
+        inside_.solid == nullptr ? signsByFeet(keys, work) : signsByVoxels(keys, origin);
     if (!signs.anyActive()) return nullptr;
     auto* leaf = new Leaf(openvdb::PartialCreate(), origin, background_, false);
     leaf->allocate();

@@ -27,8 +27,8 @@ std::array<Vec3d, 9> coefficientsOf(const std::array<std::array<Vec3d, 3>, 3>& p
   for (std::size_t p = 0; p < 3; ++p) {
     std::array<Vec3d, 3> row;
     for (std::size_t v = 0; v < 3; ++v)
-      row[v] = alongU[p][0] * points[0][v] + alongU[p][1] * points[1][v] +
-               alongU[p][2] * points[2][v];
+      row[v] =
+          alongU[p][0] * points[0][v] + alongU[p][1] * points[1][v] + alongU[p][2] * points[2][v];
     for (std::size_t q = 0; q < 3; ++q)
       c[p + 3 * q] = alongV[q][0] * row[0] + alongV[q][1] * row[1] + alongV[q][2] * row[2];
   }

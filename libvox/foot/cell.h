@@ -25,13 +25,13 @@ struct Prism {
 /// finds the foot of a point near it.
 struct NewtonCell {
   Prism prism;
-  Biquadratic surface;            ///< from prism.origin
-  Float3 middle;                   ///< surface at a = b = 0
-  std::array<Float3, 2> guess;     ///< first a, b of a point x: guess . (x - middle)
+  Biquadratic surface;          ///< from prism.origin
+  Float3 middle;                ///< surface at a = b = 0
+  std::array<Float3, 2> guess;  ///< first a, b of a point x: guess . (x - middle)
   int mostSteps = 0;
-  bool severalStarts = false;     ///< it turns so much that there may be several local minima
-  bool isCurve = false;           ///< a curve in which the surface ends
-  float stop = 0;                 ///< a step of fewer parameters is the last one
+  bool severalStarts = false;  ///< it turns so much that there may be several local minima
+  bool isCurve = false;        ///< a curve in which the surface ends
+  float stop = 0;              ///< a step of fewer parameters is the last one
   // Its place: parameter u of the square of the corner is u + side[0] a, v is v + side[1] b.
   std::uint32_t owner = 0;  ///< CellMaker::firstOwner + number of the corner
   float u = 0, v = 0;
@@ -46,13 +46,13 @@ struct PolynomialCell {
   float limitA = 1, limitB = 1;  ///< the foot is in the cell if |a| and |b| are at most these
 };
 
-/// A flat triangle of a polygon mesh. The foot of a point is in its face, on an edge or at a vertex;
-/// the normal of this place tells the side of the point.
+/// A flat triangle of a polygon mesh. The foot of a point is in its face, on an edge or at a
+/// vertex; the normal of this place tells the side of the point.
 struct TriangleCell {
   Prism prism;
-  std::array<Float3, 3> points;         ///< counter-clockwise, from prism.origin
-  Float3 normal;                        ///< unit
-  std::array<Float3, 3> edgeNormals;    ///< of the edge from point i to the next: sum of both faces'
+  std::array<Float3, 3> points;       ///< counter-clockwise, from prism.origin
+  Float3 normal;                      ///< unit
+  std::array<Float3, 3> edgeNormals;  ///< of the edge from point i to the next: sum of both faces'
   std::array<Float3, 3> vertexNormals;  ///< means of the faces', weighted by their angles
 };
 

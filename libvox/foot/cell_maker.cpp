@@ -17,7 +17,9 @@ constexpr float kReachMargin = 0.05F;
 constexpr float kMostSine = 0.5F;  // of the turn of a normal within a cell
 constexpr int kMostDepth = 20;
 
-float sizeOf(const Float3& a) { return length(a); }
+float sizeOf(const Float3& a) {
+  return length(a);
+}
 
 float lengthAlongU(const LimitPiece& piece, bool alongU) {
   double longest = 0;
@@ -49,15 +51,15 @@ struct CellMaker::Shape {
   openvdb::Coord origin;
   Float3 alongA, alongB, normal = {};  // derivatives and unit normal in the middle
   std::array<Float3, 2> guess = {};    // a and b of a point, if the surface were flat
-  float lengthA, lengthB;             // of alongA, alongB: half of the cell's sides
-  bool degenerate;                    // it has no normal in the middle
-  bool badNormal;                     // it has no normal somewhere, or nearly so
-  std::array<Range, 3> tube;          // extent of the tube in the frame; along the normal: surface
-  std::array<float, 2> flat = {};     // largest |a| and |b| of the surface itself
-  float sine = 1;                     // of the largest turn of the normal from the middle
-  float flare = 1;                    // how much the tube is wider than the surface
-  std::array<Range, 3> box;           // of the tube
-  float turnA, turnB;                 // how much it turns along a and b
+  float lengthA, lengthB;              // of alongA, alongB: half of the cell's sides
+  bool degenerate;                     // it has no normal in the middle
+  bool badNormal;                      // it has no normal somewhere, or nearly so
+  std::array<Range, 3> tube;           // extent of the tube in the frame; along the normal: surface
+  std::array<float, 2> flat = {};      // largest |a| and |b| of the surface itself
+  float sine = 1;                      // of the largest turn of the normal from the middle
+  float flare = 1;                     // how much the tube is wider than the surface
+  std::array<Range, 3> box;            // of the tube
+  float turnA, turnB;                  // how much it turns along a and b
 
   Shape(const LimitPiece& piece, const ParameterBox& part, float reach) {
     const auto exact = coefficientsOf(piece.points, part);

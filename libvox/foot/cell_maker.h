@@ -8,8 +8,8 @@
 namespace vox {
 
 struct CellOptions {
-  float reach = 3;          ///< largest distance of interest, voxels
-  bool polynomials = true;  ///< make polynomial cells where they are precise enough
+  float reach = 3;           ///< largest distance of interest, voxels
+  bool polynomials = true;   ///< make polynomial cells where they are precise enough
   float newtonStop = 0.15F;  ///< a shorter step of Newton's method is the last one, voxels
 };
 

@@ -40,9 +40,8 @@ FootBins::FootBins(std::vector<const CellStore*> stores) : stores_(std::move(sto
   cells_.reserve(count);
   for (const CellStore* store : stores_)
     cells_.insert(cells_.end(), store->binned.begin(), store->binned.end());
-  parallelSort(cells_, [](const BinnedCell& a, const BinnedCell& b) {
-    return orderOf(a) < orderOf(b);
-  });
+  parallelSort(cells_,
+               [](const BinnedCell& a, const BinnedCell& b) { return orderOf(a) < orderOf(b); });
   for (std::size_t i = 0; i < cells_.size(); ++i)
     if (i == 0 || cells_[i].bin != cells_[i - 1].bin) begin_.push_back(i);
   begin_.push_back(cells_.size());

@@ -5,12 +5,11 @@
 #define HWY_TARGET_INCLUDE "libvox/foot/foot_fit.cpp"
 #include "libvox/foot/foot_fit.h"
 
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
 #include "libvox/foot/newton-inl.h"
 
 #include <Eigen/Cholesky>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
 #include <algorithm>
 #include <array>
@@ -66,8 +65,8 @@ struct FitTables {
         (matrix.transpose() * matrix).ldlt().solve(matrix.transpose());
     for (std::size_t k = 0; k < kNodes; ++k)
       for (std::size_t i = 0; i < kTerms; ++i)
-        solve[k][i] = static_cast<float>(
-            inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
+        solve[k][i] =
+            static_cast<float>(inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
   }
 };
 const FitTables kFit;
@@ -139,8 +138,8 @@ void solveNodes(const Biquadratic& surface, const PrismFrame& frame, NodeValues&
   for (std::size_t k = 0; k < kNodes; k += lanes) {
     V3 at;
     for (std::size_t i = 0; i < 3; ++i)
-      at[i] = mulAdd(hn::Load(d, kFit.node[i].data() + k), set(frame.half[i]),
-                     set(frame.middle[i]));
+      at[i] =
+          mulAdd(hn::Load(d, kFit.node[i].data() + k), set(frame.half[i]), set(frame.middle[i]));
     V3 x;
     for (std::size_t i = 0; i < 3; ++i)
       x[i] = mulAdd(at[0], set(frame.axes[0][i]),
@@ -199,8 +198,7 @@ bool fitFoot(const Biquadratic& surface, const std::array<Float3, 3>& frameAxes,
   std::array<Terms, 3> terms{};
   for (std::size_t f = 0; f < 3; ++f)
     for (std::size_t k = 0; k < kNodes; ++k)
-      for (std::size_t i = 0; i < kTerms; ++i)
-        terms[f][i] += nodes.value[f][k] * kFit.solve[k][i];
+      for (std::size_t i = 0; i < kTerms; ++i) terms[f][i] += nodes.value[f][k] * kFit.solve[k][i];
   std::array<float, 3> residual;
   for (std::size_t f = 0; f < 3; ++f)
     residual[f] = HWY_DYNAMIC_DISPATCH(residualOf)(terms[f], nodes.value[f]);

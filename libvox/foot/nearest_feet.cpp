@@ -26,7 +26,8 @@ class FeetOfBin {
     for (unsigned number = 0; number < FootBrick::kLeaves; ++number) {
       const auto* leaf = voxels.probeConstLeaf(FootBrick::leafOrigin(binOrigin, number));
       for (unsigned x = 0; x < 8; ++x)
-        wanted_[number][x] = leaf == nullptr ? 0 : leaf->getValueMask().getWord<openvdb::Index64>(x);
+        wanted_[number][x] =
+            leaf == nullptr ? 0 : leaf->getValueMask().getWord<openvdb::Index64>(x);
       any |= leaf != nullptr;
       leaves_[number].found = {};
     }
@@ -76,7 +77,8 @@ struct FeetWork {
 }  // namespace
 
 void forEachFoot(const FootBins& bins, const openvdb::MaskTree& voxels, Progress& progress,
-                 double part, const std::function<void(const openvdb::Coord&, const LeafFeet&)>& visit) {
+                 double part,
+                 const std::function<void(const openvdb::Coord&, const LeafFeet&)>& visit) {
   tbb::enumerable_thread_specific<std::unique_ptr<FeetWork>> works(
       [] { return std::make_unique<FeetWork>(); });
   parallelForEach(bins.count(), 1, [&](std::size_t bin) {

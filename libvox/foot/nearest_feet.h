@@ -34,14 +34,15 @@ struct LeafFeet {
   }
 };
 
-/// Calls visit(origin of the leaf, feet) for each leaf with voxels that have a foot within the reach
-/// of the cells; from any thread, once per leaf. Of equally near feet it is the one in the first
-/// cell of the bin, so the same for any number of threads.
+/// Calls visit(origin of the leaf, feet) for each leaf with voxels that have a foot within the
+/// reach of the cells; from any thread, once per leaf. Of equally near feet it is the one in the
+/// first cell of the bin, so the same for any number of threads.
 /// @param bins    without polynomial cells
 /// @param voxels  without tiles
 /// @param part    the share of this in the current stage of `progress`
 /// @throws Cancelled
 void forEachFoot(const FootBins& bins, const openvdb::MaskTree& voxels, Progress& progress,
-                 double part, const std::function<void(const openvdb::Coord&, const LeafFeet&)>& visit);
+                 double part,
+                 const std::function<void(const openvdb::Coord&, const LeafFeet&)>& visit);
 
 }  // namespace vox

@@ -96,8 +96,8 @@ HWY_INLINE V newtonStep(const Biquadratic& c, const V3& x, V limit, V& a, V& b) 
   V hab = hn::Sub(f, rab);
   V det = hn::Sub(hn::Mul(haa, hbb), hn::Mul(hab, hab));
   const V detFlat = hn::Sub(hn::Mul(e, g), hn::Mul(f, f));
-  const auto safe = hn::And(hn::Gt(det, hn::Mul(set(0.02F), detFlat)),
-                            hn::Gt(haa, hn::Mul(set(0.05F), e)));
+  const auto safe =
+      hn::And(hn::Gt(det, hn::Mul(set(0.02F), detFlat)), hn::Gt(haa, hn::Mul(set(0.05F), e)));
   haa = hn::IfThenElse(safe, haa, e);
   hbb = hn::IfThenElse(safe, hbb, g);
   hab = hn::IfThenElse(safe, hab, f);
@@ -108,10 +108,9 @@ HWY_INLINE V newtonStep(const Biquadratic& c, const V3& x, V limit, V& a, V& b) 
   const V stepA = hn::Div(hn::Sub(hn::Mul(hbb, ra), hn::Mul(hab, rb)), det);
   // Each parameter once more, given the other one within its limits.
   V na = within(hn::Add(a, stepA));
-  const V nb = within(hn::Add(
-      b, hn::Div(hn::Sub(rb, hn::Mul(hab, hn::Sub(na, a))), hn::Max(hbb, tiny))));
-  na = within(hn::Add(
-      a, hn::Div(hn::Sub(ra, hn::Mul(hab, hn::Sub(nb, b))), hn::Max(haa, tiny))));
+  const V nb =
+      within(hn::Add(b, hn::Div(hn::Sub(rb, hn::Mul(hab, hn::Sub(na, a))), hn::Max(hbb, tiny))));
+  na = within(hn::Add(a, hn::Div(hn::Sub(ra, hn::Mul(hab, hn::Sub(nb, b))), hn::Max(haa, tiny))));
   const V change = hn::Max(hn::Abs(hn::Sub(na, a)), hn::Abs(hn::Sub(nb, b)));
   a = na;
   b = nb;

@@ -58,7 +58,7 @@ class PrismRows {
   }
 
   std::array<int, 3> low, high;  ///< box of voxels
-  Float3 centre;                  ///< of the prism
+  Float3 centre;                 ///< of the prism
 
  private:
   std::array<float, 3> middle_, perX_, perY_, reach_;

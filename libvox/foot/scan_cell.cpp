@@ -5,10 +5,10 @@
 #define HWY_TARGET_INCLUDE "libvox/foot/scan_cell.cpp"
 #include "libvox/foot/scan_cell.h"
 
+#include "libvox/foot/newton-inl.h"
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-
-#include "libvox/foot/newton-inl.h"
 
 #include <algorithm>
 #include <array>
@@ -16,8 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace vox::HWY_NAMESPACE {
 
-/// Steps of Newton's method from a, b on. A lane that has arrived stays where it is, so that it does
-/// not depend on the others.
+/// Steps of Newton's method from a, b on. A lane that has arrived stays where it is, so that it
+/// does not depend on the others.
 HWY_INLINE void descend(const NewtonCell& cell, const V3& x, V& a, V& b) {
   const D d;
   const V one = set(1);
@@ -128,12 +128,12 @@ void solveTriangle(const TriangleCell& cell, const Float3& shift, Feet& feet) {
     const auto all = [](auto a, auto b, auto c) { return hn::And(a, hn::And(b, c)); };
     const V onBc = hn::Sub(d4, d3), beyondBc = hn::Sub(d5, d6);
     const V alongBc = divided(onBc, hn::Add(onBc, beyondBc));
-    choose(all(hn::Le(va, zero), hn::Ge(onBc, zero), hn::Ge(beyondBc, zero)),
-           hn::Sub(one, alongBc), alongBc, cell.edgeNormals[1]);
+    choose(all(hn::Le(va, zero), hn::Ge(onBc, zero), hn::Ge(beyondBc, zero)), hn::Sub(one, alongBc),
+           alongBc, cell.edgeNormals[1]);
     choose(all(hn::Le(vb, zero), hn::Ge(d2, zero), hn::Le(d6, zero)), zero,
            divided(d2, hn::Sub(d2, d6)), cell.edgeNormals[2]);
-    choose(all(hn::Le(vc, zero), hn::Ge(d1, zero), hn::Le(d3, zero)),
-           divided(d1, hn::Sub(d1, d3)), zero, cell.edgeNormals[0]);
+    choose(all(hn::Le(vc, zero), hn::Ge(d1, zero), hn::Le(d3, zero)), divided(d1, hn::Sub(d1, d3)),
+           zero, cell.edgeNormals[0]);
     choose(hn::And(hn::Ge(d6, zero), hn::Le(d5, d6)), zero, one, cell.vertexNormals[2]);
     choose(hn::And(hn::Ge(d3, zero), hn::Le(d4, d3)), one, zero, cell.vertexNormals[1]);
     choose(hn::And(hn::Le(d1, zero), hn::Le(d2, zero)), zero, zero, cell.vertexNormals[0]);
@@ -211,8 +211,7 @@ void scan(const PolynomialCell& cell, const openvdb::Coord& binOrigin, std::uint
           if (!set8) setRows(slices, static_cast<float>(8 * y8) - rows.centre[1], terms);
           set8 = true;
           if (leaf == nullptr)
-            leaf = brick.leaf(static_cast<unsigned>((x >> 3) << 4 | y8 << 2 | z8)) +
-                   ((x & 7) << 6);
+            leaf = brick.leaf(static_cast<unsigned>((x >> 3) << 4 | y8 << 2 | z8)) + ((x & 7) << 6);
           for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
             const V zBin = hn::Iota(d, z0 + static_cast<float>(i));
             const V z = hn::Sub(zBin, set(rows.centre[2]));
@@ -223,8 +222,8 @@ void scan(const PolynomialCell& cell, const openvdb::Coord& binOrigin, std::uint
                             set(terms.constant[f][r]));
             };
             const auto inRow = hn::And(hn::Ge(zBin, set(first[r])), hn::Le(zBin, set(last[r])));
-            const auto inCell = hn::And(hn::Le(hn::Abs(cubic(1)), limitA),
-                                        hn::Le(hn::Abs(cubic(2)), limitB));
+            const auto inCell =
+                hn::And(hn::Le(hn::Abs(cubic(1)), limitA), hn::Le(hn::Abs(cubic(2)), limitB));
             const auto bits = hn::And(hn::BitCast(du, cubic(0)), keptBits);
             const auto key = hn::Or(hn::ShiftLeft<1>(bits), hn::ShiftRight<31>(bits));
             const auto accepted = hn::RebindMask(du, hn::And(inRow, inCell));

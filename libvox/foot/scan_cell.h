@@ -38,8 +38,8 @@ using BinMask = std::array<std::array<std::uint64_t, 8>, FootBrick::kLeaves>;
 /// Calls visit(feet) with the feet of all voxels of a bin in the prism of a cell, some at a time.
 /// @param wanted  if not null, only these voxels
 template <class Cell, class Visit>
-void scanFeet(const Cell& cell, const openvdb::Coord& binOrigin, const BinMask* wanted,
-              Feet& feet, Visit&& visit);
+void scanFeet(const Cell& cell, const openvdb::Coord& binOrigin, const BinMask* wanted, Feet& feet,
+              Visit&& visit);
 
 /// Index of the leaf of a voxel in its bin, and of the voxel in its leaf.
 inline unsigned leafOf(unsigned x, unsigned y, unsigned z) {
@@ -56,8 +56,8 @@ inline unsigned voxelInLeaf(unsigned x, unsigned y, unsigned z) {
 namespace vox {
 
 template <class Cell, class Visit>
-void scanFeet(const Cell& cell, const openvdb::Coord& binOrigin, const BinMask* wanted,
-              Feet& feet, Visit&& visit) {
+void scanFeet(const Cell& cell, const openvdb::Coord& binOrigin, const BinMask* wanted, Feet& feet,
+              Visit&& visit) {
   const PrismRows rows(cell.prism, binOrigin);
   if (rows.empty()) return;
   const auto flush = [&] {

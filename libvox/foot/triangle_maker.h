@@ -22,7 +22,8 @@ class TriangleMaker {
            CellStore& store) const;
 
  private:
-  void addTriangle(Index triangle, std::uint32_t owner, std::uint32_t group, CellStore& store) const;
+  void addTriangle(Index triangle, std::uint32_t owner, std::uint32_t group,
+                   CellStore& store) const;
 
   const PolygonMesh& mesh_;
   float reach_;

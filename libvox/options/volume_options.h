@@ -50,13 +50,12 @@ inline constexpr double kDefaultTolerance = 0.05;  ///< voxels
 
 /// How to make volumes. A value that is not set comes from the scene, else from the default.
 struct VolumeOptions {
-  std::optional<Fill> fill;          ///< default: kSurface
-  std::optional<double> gain;        ///< value of `density` at its voxels; see densityValue()
-  std::optional<OpenMesh> openMesh;  ///< default: kSurface
-  std::optional<double> band;        ///< half width of `surface` in voxels; default 3
-  std::optional<double> tolerance;   ///< from the polygons of `surface` to the smooth surface, in
-                                     ///< voxels; default 0.05
-  std::optional<bool> half;          ///< true: values of 16 bits; default: false, 32 bits
+  std::optional<Fill> fill;                ///< default: kSurface
+  std::optional<double> gain;              ///< value of `density` at its voxels; see densityValue()
+  std::optional<OpenMesh> openMesh;        ///< default: kSurface
+  std::optional<double> band;              ///< half width of `surface` in voxels; default 3
+  std::optional<double> tolerance;         ///< voxels; has no effect: distances are exact
+  std::optional<bool> half;                ///< true: values of 16 bits; default: false, 32 bits
   std::optional<Compression> compression;  ///< default: kBlosc, if OpenVDB has it
   std::optional<Target> target;            ///< default: kBlender
   std::optional<UpAxis> up;                ///< default: as in the target, so that nothing turns

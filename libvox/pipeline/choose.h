@@ -3,9 +3,8 @@
 #include "libvox/options/stop_rule.h"
 #include "libvox/options/voxelize.h"
 
-#include <string>
-
 #include <optional>
+#include <string>
 
 namespace vox {
 

@@ -71,8 +71,7 @@ class MeshColors {
   }
   /// In a triangle of three corners, with the weights of the second and the third.
   Vec3d at(const Index* corners, double b, double c) const {
-    return (1 - b - c) * corners_[corners[0]] + b * corners_[corners[1]] +
-           c * corners_[corners[2]];
+    return (1 - b - c) * corners_[corners[0]] + b * corners_[corners[1]] + c * corners_[corners[2]];
   }
 
  private:
@@ -98,7 +97,8 @@ void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
   visitFeet(feet, voxels, budget, progress, part,
             [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
               openvdb::Vec3s* const values = color.tree().probeLeaf(origin)->buffer().data();
-              leafFeet.forEachFound([&](unsigned i) { values[i] = asFloats(colorAt(bins, leafFeet.place[i])); });
+              leafFeet.forEachFound(
+                  [&](unsigned i) { values[i] = asFloats(colorAt(bins, leafFeet.place[i])); });
             });
 }
 

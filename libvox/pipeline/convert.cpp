@@ -145,8 +145,7 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   if (!prepared.estimate.refusal.empty()) throw LimitError(prepared.estimate.refusal);
   const bool marks = needsVoxels(request.grids);
   openvdb::MaskGrid::Ptr mask = openvdb::MaskGrid::create();
-  mask->setTransform(
-      openvdb::math::Transform::createLinearTransform(prepared.transform.voxelSize));
+  mask->setTransform(openvdb::math::Transform::createLinearTransform(prepared.transform.voxelSize));
   if (marks) {
     const StageTimer timer(report.surfaceSeconds);
     mask = markObjects(scene, request, prepared, progress, report);
@@ -167,10 +166,9 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   const openvdb::MetaMap metadata = describe(scene, request, report);
   for (const GridKind kind : request.grids) {
     progress.begin("grids", workOfGrids(prepared.areas, std::array{kind}));
-    result.grids.push_back(
-        finished(makeGrid(kind, {mask, prepared.surfaces, markVoxels}, volume,
-                          prepared.budget, progress, report.warnings),
-                 kind, volume, metadata));
+    result.grids.push_back(finished(makeGrid(kind, {mask, prepared.surfaces, markVoxels}, volume,
+                                             prepared.budget, progress, report.warnings),
+                                    kind, volume, metadata));
   }
   if (!marks) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;

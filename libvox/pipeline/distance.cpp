@@ -28,7 +28,7 @@ namespace {
 struct Part {
   std::size_t surface;
   const MeshComponent* component;
-  Box box;  // of its control points, which hold the surface; index space
+  Box box;                  // of its control points, which hold the surface; index space
   std::uint32_t group = 0;  // parts of a group have their inside in common
 
   bool isClosed() const { return component->side != MeshComponent::Side::kNoInside; }
@@ -53,7 +53,9 @@ bool mayMeet(const std::vector<Part>& parts) {
   return false;
 }
 
-bool facesInward(const Part& part) { return part.component->side == MeshComponent::Side::kIn; }
+bool facesInward(const Part& part) {
+  return part.component->side == MeshComponent::Side::kIn;
+}
 
 /// Makes each part a group of its own; but cavities join the smallest part around them.
 void setGroups(std::vector<Part>& parts) {
@@ -126,9 +128,8 @@ std::vector<Index> facesOf(const PolygonMesh& mesh, std::span<const Part> parts)
 template <class Visit>
 void forEachSurface(const std::vector<Part>& parts, Visit&& visit) {
   for (auto begin = parts.begin(); begin != parts.end();) {
-    const auto end = std::find_if(begin, parts.end(), [&](const Part& part) {
-      return part.surface != begin->surface;
-    });
+    const auto end = std::find_if(begin, parts.end(),
+                                  [&](const Part& part) { return part.surface != begin->surface; });
     visit(std::span<const Part>(begin, end));
     begin = end;
   }
@@ -176,7 +177,8 @@ class LevelSetMaker {
   /// has no such distances.
   static constexpr double kExposedDepth = 2.2;  // voxels
   static constexpr double kFoldedDepth = 1.7;   // voxels
-  static constexpr const char* kAdvice = "use a smaller --band or larger voxels, or raise --max-memory";
+  static constexpr const char* kAdvice =
+      "use a smaller --band or larger voxels, or raise --max-memory";
 
   /// Open components that enclose something become closed ones.
   void findEnclosing() {
@@ -185,10 +187,9 @@ class LevelSetMaker {
     forEachSurface(open_, [&](std::span<const Part> parts) {
       const PreparedSurface& surface = surfaces_[parts[0].surface];
       std::vector<Votes> votes(parts.size());
-      const std::vector<std::uint32_t> numbers =
-          numbersOfCorners(surface.base.mesh, parts, [&](const Part& part) {
-            return static_cast<std::uint32_t>(&part - parts.data());
-          });
+      const std::vector<std::uint32_t> numbers = numbersOfCorners(
+          surface.base.mesh, parts,
+          [&](const Part& part) { return static_cast<std::uint32_t>(&part - parts.data()); });
       const PieceFilter count = [&](LimitSink&) {
         return std::make_unique<InnerSide>(inside_, numbers, votes);
       };
@@ -264,9 +265,8 @@ class LevelSetMaker {
     PieceFilter filter;
     if (byVoxels)
       filter = [this](LimitSink& next) {
-        return std::make_unique<ExposedPieces>(*inside_.solid,
-                                               closed_.size() > 1 ? kExposedDepth : kFoldedDepth,
-                                               next);
+        return std::make_unique<ExposedPieces>(
+            *inside_.solid, closed_.size() > 1 ? kExposedDepth : kFoldedDepth, next);
       };
     cells.addLimitSurface(surface, facesOf(mesh, parts), groups, filter, progress_, share);
   }

@@ -18,8 +18,8 @@ class Progress;
 /// Makes the active voxels of all objects; called at most once.
 using MarkVoxels = std::function<const openvdb::MaskTree&()>;
 
-/// The grid `surface`: a narrow band of exact signed distances to the limit surfaces of all objects,
-/// or to the polygons of objects that stop at a level.
+/// The grid `surface`: a narrow band of exact signed distances to the limit surfaces of all
+/// objects, or to the polygons of objects that stop at a level.
 ///
 /// What is inside is decided as for a solid density (inside.h): the active voxels and what they
 /// enclose. So components are united, cavities stay, parts of a surface inside others leave no

@@ -6,7 +6,8 @@
 namespace vox {
 
 /// Passes on the parts of a surface that have the outside on one side at least. Where surfaces
-/// overlap, the parts inside others are left out; pieces at the border are cut to less than a voxel.
+/// overlap, the parts inside others are left out; pieces at the border are cut to less than a
+/// voxel.
 class ExposedPieces : public LimitSink {
  public:
   /// @param solid  voxels that surfaces cross or enclose

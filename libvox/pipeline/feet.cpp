@@ -16,8 +16,8 @@
 namespace vox {
 namespace {
 
-/// A voxel that a surface crosses is nearer than sqrt(3) / 2; a vertex that switched it on may lie a
-/// little off the limit surface.
+/// A voxel that a surface crosses is nearer than sqrt(3) / 2; a vertex that switched it on may lie
+/// a little off the limit surface.
 constexpr float kFirstReach = 1.25F;
 constexpr float kMoreReach = 4;     // times as far in the next pass
 constexpr float kMostReach = 4000;  // voxels
@@ -56,8 +56,7 @@ std::vector<openvdb::Coord> binsOf(const openvdb::MaskTree& voxels) {
 void removeFound(const openvdb::Coord& origin, const LeafFeet& feet, openvdb::MaskTree& left) {
   auto* leaf = left.probeLeaf(origin);
   auto mask = leaf->getValueMask();
-  for (openvdb::Index x = 0; x < 8; ++x)
-    mask.getWord<openvdb::Index64>(x) &= ~feet.found[x];
+  for (openvdb::Index x = 0; x < 8; ++x) mask.getWord<openvdb::Index64>(x) &= ~feet.found[x];
   leaf->setValueMask(mask);
 }
 
@@ -78,7 +77,8 @@ void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
   openvdb::MaskTree left(voxels);
   for (float reach = kFirstReach; reach <= kMostReach && !left.empty(); reach *= kMoreReach) {
     const CellOptions cellOptions{.reach = reach, .polynomials = false, .newtonStop = 0.02F};
-    FootCells cells(cellOptions, reach > kFirstReach ? binsOf(left) : std::vector<openvdb::Coord>{});
+    FootCells cells(cellOptions,
+                    reach > kFirstReach ? binsOf(left) : std::vector<openvdb::Coord>{});
     for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {
       const FootSurfaces::Flat& flat = surfaces.flat[s];
       if (flat.triangles.faceCount() > 0)

@@ -34,8 +34,7 @@ struct FootSurfaces {
 /// @throws Cancelled
 using VisitFeet = std::function<void(const FootBins&, const openvdb::Coord&, const LeafFeet&)>;
 void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
-               const MemoryBudget& budget, Progress& progress, double part,
-               const VisitFeet& visit);
+               const MemoryBudget& budget, Progress& progress, double part, const VisitFeet& visit);
 
 /// Collects the surfaces of feet.
 FootSurfaces footSurfaces(std::span<const PreparedSurface> surfaces);

@@ -88,7 +88,8 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
     case GridKind::kDensity:
       return makeDensity(*mask, surfaces, volume, budget, progress);
     case GridKind::kSurface:
-      return surfaceGrid(surfaces, volume, mask->transform(), markVoxels, budget, progress, warnings);
+      return surfaceGrid(surfaces, volume, mask->transform(), markVoxels, budget, progress,
+                         warnings);
     case GridKind::kNormal:
       return makeNormalGrid(*mask, surfaces, budget, progress);
     case GridKind::kColor:

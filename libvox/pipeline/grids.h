@@ -39,8 +39,7 @@ struct GridSources {
 /// @throws Cancelled
 std::shared_ptr<openvdb::GridBase> makeGrid(GridKind kind, const GridSources& sources,
                                             const VolumeSettings& volume, MemoryBudget& budget,
-                                            Progress& progress,
-                                            std::vector<std::string>& warnings);
+                                            Progress& progress, std::vector<std::string>& warnings);
 
 /// Work of making grids (work.h), by the area of each object in square voxels.
 double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds);

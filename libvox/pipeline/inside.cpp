@@ -82,9 +82,8 @@ PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>&
   if (faces.empty()) return {};
   if (levelOf(surface.way)) return trianglesOfLevel(surface, faces, budget, progress);
   Progress unwatched;
-  const TriangleSoup soup =
-      triangleSoup(levelOfFaces(surface, faces), StopRule{.flatness = kTolerance},
-                   surface.options, unwatched);
+  const TriangleSoup soup = triangleSoup(
+      levelOfFaces(surface, faces), StopRule{.flatness = kTolerance}, surface.options, unwatched);
   PolygonMesh mesh;
   mesh.points = soup.points;
   for (const auto& triangle : soup.triangles) mesh.addFace(triangle);

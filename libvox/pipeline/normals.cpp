@@ -16,7 +16,9 @@ namespace {
 
 openvdb::Vec3s directionOf(const Float3& v) {
   const float size = length(v);
-  return size > std::numeric_limits<float>::min() ? openvdb::Vec3s(v[0] / size, v[1] / size, v[2] / size) : openvdb::Vec3s(0, 0, 0);
+  return size > std::numeric_limits<float>::min()
+             ? openvdb::Vec3s(v[0] / size, v[1] / size, v[2] / size)
+             : openvdb::Vec3s(0, 0, 0);
 }
 
 /// The normal of a triangle, of its edge or of its vertex, whichever the foot is on.
@@ -51,11 +53,12 @@ openvdb::Vec3SGrid::Ptr makeNormalGrid(const openvdb::MaskGrid& mask,
     if (normal != openvdb::Vec3s(0, 0, 0)) return normal;
     return directionOf(Jet(surface, kNear * at.a, kNear * at.b).normal());
   };
-  visitFeet(feet, mask.tree(), budget, progress, 1,
-            [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
-              openvdb::Vec3s* const values = grid->tree().probeLeaf(origin)->buffer().data();
-              leafFeet.forEachFound([&](unsigned i) { values[i] = normalOf(bins, leafFeet.place[i]); });
-            });
+  visitFeet(
+      feet, mask.tree(), budget, progress, 1,
+      [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
+        openvdb::Vec3s* const values = grid->tree().probeLeaf(origin)->buffer().data();
+        leafFeet.forEachFound([&](unsigned i) { values[i] = normalOf(bins, leafFeet.place[i]); });
+      });
   return grid;
 }
 

@@ -47,7 +47,8 @@ double errorAsQuad(const Patch& patch, bool inF, const Vec3d& image, std::size_t
   double largest = along((p[2][1] - p[0][1]).cross(p[1][2] - p[1][0]));
   for (const std::size_t u : {0U, 1U})
     for (const std::size_t v : {0U, 1U})
-      largest = std::max(largest, along((p[u + 1][v + 1] - p[u][v]).cross(p[u][v + 1] - p[u + 1][v])));
+      largest =
+          std::max(largest, along((p[u + 1][v + 1] - p[u][v]).cross(p[u][v + 1] - p[u + 1][v])));
   return perDifference * largest;
 }
 
@@ -138,10 +139,10 @@ void LimitWalk::emitFace(Index face, Index firstSlot, LimitSink& sink) {
       const Index number = images_.vFaceNumber(at.slot());
       subdivideVFace(number);
       fine = vFaceSize > 1 &&
-             errorAsQuad(patch, false,
-                         vFaceImages_[images_.vFaces()[number].begin +
-                                      images_.placeInVFace(at.slot())],
-                         vFaceSize) <= tolerance_;
+             errorAsQuad(
+                 patch, false,
+                 vFaceImages_[images_.vFaces()[number].begin + images_.placeInVFace(at.slot())],
+                 vFaceSize) <= tolerance_;
     }
     if (fine) {
       emitPiece(patch, boundarySidesAt(at), at.square(), sink);
@@ -165,18 +166,18 @@ Patch LimitWalk::patchAt(const Corner& at) const {
   const Vec3d& centre = images_.image(at.slot());
   const Vec3d& next = images_.image(at.next());
   const Vec3d& previous = images_.image(at.previous());
-  const Vec3d opposite =
-      at.size == 4 ? images_.image(at.opposite())
-                   : fourthCorner(centroidOf(images_.imagesOfFace(at.first, at.size)), centre,
-                                  next, previous);
+  const Vec3d opposite = at.size == 4
+                             ? images_.image(at.opposite())
+                             : fourthCorner(centroidOf(images_.imagesOfFace(at.first, at.size)),
+                                            centre, next, previous);
   const auto vFacePoints = std::span(images_.vFacePoints()).subspan(vFace.begin, vFace.size);
   Vec3d beyond = centre;
   if (hasVFace(at) && vFace.size == 4)
     beyond = vFacePoints[images_.placeInVFace(at.slot()) ^ 2U];
   else if (hasVFace(at) && vFace.size > 1)
     beyond = fourthCorner(centroidOf(vFacePoints), centre, left.near, right.near);
-  const unsigned quadrants = 8U | (right.exists ? 4U : 0U) | (left.exists ? 2U : 0U) |
-                             (hasVFace(at) ? 1U : 0U);
+  const unsigned quadrants =
+      8U | (right.exists ? 4U : 0U) | (left.exists ? 2U : 0U) | (hasVFace(at) ? 1U : 0U);
   return {{{{beyond, left.far, left.near},
             {right.near, centre, previous},
             {right.far, next, opposite}}},
@@ -360,8 +361,7 @@ void LimitWalk::emitAround(ExtraordinaryFace& face, LimitSink& sink) {
         emitPiece(split.childInR(), only(sides, kSidesInR), square.quarter(true, false), sink);
       if (split.hasL)
         emitPiece(split.childInL(), only(sides, kSidesInL), square.quarter(false, true), sink);
-      if (split.hasVFace)
-        emitPiece(split.childInVFace(), 0, square.quarter(false, false), sink);
+      if (split.hasVFace) emitPiece(split.childInVFace(), 0, square.quarter(false, false), sink);
       square = square.quarter(true, true);
       next_.near[i] = split.r[0];
       next_.far[i] = split.r[1];

@@ -21,9 +21,10 @@ namespace vox {
 /// At a free boundary the surface ends in curves between the faces that exist. Each is a piece of
 /// hardly any width (kAllSides).
 ///
-/// A corner owns its pieces, so if submeshes cover the mesh once, the pieces cover the surface once.
-/// The pieces of a corner come in an order that does not depend on the submeshes; all have the same
-/// bits in every submesh. One object per thread. Source: paper section 4; DESIGN section 18.
+/// A corner owns its pieces, so if submeshes cover the mesh once, the pieces cover the surface
+/// once. The pieces of a corner come in an order that does not depend on the submeshes; all have
+/// the same bits in every submesh. One object per thread. Source: paper section 4; DESIGN
+/// section 18.
 class LimitWalk {
  public:
   /// @param base       level 0, in index space: an oriented manifold with one fan of faces at each
