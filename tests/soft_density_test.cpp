@@ -108,7 +108,7 @@ TEST_CASE("a soft solid has the volume inside its surface", "[soft][golden]") {
     CHECK(volume == Approx(torus.volume()).epsilon(size * size));
   }
   for (const auto& shape : test::shapes()) {
-    if (!shape.closed || shape.name == "bow tie") continue;
+    if (!shape.closed || shape.name == "point of valence 2") continue;  // which is repaired
     CAPTURE(shape.name);
     const Measures limit = limitMeasures(shape.mesh);
     const double size = voxelSizeFor(shape.mesh, 160);
@@ -121,7 +121,7 @@ TEST_CASE("a soft solid has the volume inside its surface", "[soft][golden]") {
 
 TEST_CASE("a soft shell has the volume of its surface, a voxel thick", "[soft][golden]") {
   for (const auto& shape : test::shapes()) {
-    if (!shape.closed) continue;
+    if (!shape.closed || shape.name == "point of valence 2") continue;
     CAPTURE(shape.name);
     const Measures limit = limitMeasures(shape.mesh);
     const double size = voxelSizeFor(shape.mesh, 160);

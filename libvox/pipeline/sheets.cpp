@@ -5,13 +5,13 @@
 #include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/mesh/patch.h"
-#include "libvox/pipeline/components.h"
 #include "libvox/pipeline/foot_cells.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 namespace vox {
 namespace {
@@ -56,15 +56,14 @@ bool enclosesSomething(const PreparedSurface& surface, const MeshComponent& comp
 
 }  // namespace
 
-SolidAndSheets solidAndSheets(const PreparedSurface& surface, const openvdb::MaskTree& active,
-                              const openvdb::MaskTree& solid, Progress& progress) {
-  SolidAndSheets result;
-  for (const MeshComponent& component : componentsOf(surface.base)) {
-    auto& faces = enclosesSomething(surface, component, active, solid, progress) ? result.solid
-                                                                                 : result.sheets;
-    faces.insert(faces.end(), component.faces.begin(), component.faces.end());
-  }
-  std::sort(result.solid.begin(), result.solid.end());
+BodiesAndSheets bodiesAndSheets(const PreparedSurface& surface, const openvdb::MaskTree& active,
+                                const openvdb::MaskTree& solid, Progress& progress) {
+  BodiesAndSheets result;
+  for (MeshComponent& component : componentsOf(surface.base))
+    if (enclosesSomething(surface, component, active, solid, progress))
+      result.bodies.push_back(std::move(component));
+    else
+      result.sheets.insert(result.sheets.end(), component.faces.begin(), component.faces.end());
   std::sort(result.sheets.begin(), result.sheets.end());
   return result;
 }

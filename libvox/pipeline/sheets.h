@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/grid/openvdb_fwd.h"
+#include "libvox/pipeline/components.h"
 #include "libvox/pipeline/prepared_surface.h"
 
 #include <vector>
@@ -9,16 +10,16 @@ namespace vox {
 
 class Progress;
 
-/// The faces of an object by what their components enclose; both ascending.
-struct SolidAndSheets {
-  std::vector<Index> solid;   ///< of components that are closed, or open but around something
-  std::vector<Index> sheets;  ///< of the others
+/// The components of an object.
+struct BodiesAndSheets {
+  std::vector<MeshComponent> bodies;  ///< closed ones, and open ones that enclose something
+  std::vector<Index> sheets;          ///< faces of the others, ascending
 };
 
 /// @param active  the voxels of the surface of all objects
 /// @param solid   these, and what they enclose
 /// @throws Cancelled
-SolidAndSheets solidAndSheets(const PreparedSurface& surface, const openvdb::MaskTree& active,
-                              const openvdb::MaskTree& solid, Progress& progress);
+BodiesAndSheets bodiesAndSheets(const PreparedSurface& surface, const openvdb::MaskTree& active,
+                                const openvdb::MaskTree& solid, Progress& progress);
 
 }  // namespace vox

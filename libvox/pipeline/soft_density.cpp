@@ -31,6 +31,8 @@ namespace {
 // The cubes that a plane crosses are nearer than sqrt(3) / 2, and vertices that switched voxels on may
 // lie a little off the limit surface.
 constexpr float kReachOfSolid = 1.1F;
+// Where bodies meet, a voxel crossed by one of them may lie as deep as this in another.
+constexpr float kReachOfSolids = 2;
 // Half a voxel more, for the cubes that a shell crosses.
 constexpr float kReachOfShell = 1.4F;
 
@@ -81,6 +83,63 @@ Vec3d planeNormal(const FootBins& bins, const FootPlace& at, const openvdb::Coor
 using VisitLeafFeet =
     std::function<void(const FootBins&, const openvdb::Coord&, const LeafFeet&)>;
 
+using FacesOfSurfaces = std::vector<std::vector<Index>>;
+
+/// Bodies in groups. Of a group no two meet, if there are not too many: so the bodies that meet at a
+/// voxel have a foot each.
+class BodyGroups {
+ public:
+  explicit BodyGroups(std::size_t surfaces) : surfaces_(surfaces) {}
+
+  void add(std::size_t surface, const PolygonMesh& mesh, const MeshComponent& body) {
+    constexpr std::size_t kMostGroups = 8;
+    constexpr std::size_t kMostBoxes = 1000;  // of a group
+    Box box;
+    for (const Index f : body.faces)
+      for (const Index v : mesh.face(f)) box.add(mesh.points[v]);
+    std::size_t g = 0;
+    while (g < groups_.size() && g + 1 < kMostGroups && meets(boxes_[g], box)) ++g;
+    if (g == groups_.size()) {
+      groups_.emplace_back(surfaces_);
+      boxes_.emplace_back();
+    }
+    if (boxes_[g].size() < kMostBoxes) boxes_[g].push_back(box);
+    auto& faces = groups_[g][surface];
+    const auto middle = static_cast<std::ptrdiff_t>(faces.size());
+    faces.insert(faces.end(), body.faces.begin(), body.faces.end());
+    std::inplace_merge(faces.begin(), faces.begin() + middle, faces.end());
+  }
+
+  const std::vector<FacesOfSurfaces>& faces() const { return groups_; }
+
+ private:
+  static bool meets(const std::vector<Box>& boxes, const Box& box) {
+    return std::any_of(boxes.begin(), boxes.end(), [&](const Box& other) {
+      return (box.low.array() <= other.high.array()).all() &&
+             (other.low.array() <= box.high.array()).all();
+    });
+  }
+
+  std::size_t surfaces_;
+  std::vector<FacesOfSurfaces> groups_;
+  std::vector<std::vector<Box>> boxes_;
+};
+
+using MaskLeaf = openvdb::MaskTree::LeafNodeType;
+
+/// The solid voxels at the place of a leaf, which may be a tile.
+class SolidLeaf {
+ public:
+  SolidLeaf(const openvdb::MaskTree& solid, const openvdb::Coord& origin)
+      : leaf_(solid.probeConstLeaf(origin)),
+        tile_(leaf_ == nullptr && solid.isValueOn(origin)) {}
+  bool isOn(unsigned voxel) const { return leaf_ != nullptr ? leaf_->isValueOn(voxel) : tile_; }
+
+ private:
+  const MaskLeaf* leaf_;
+  bool tile_;
+};
+
 class SoftDensity {
  public:
   SoftDensity(const openvdb::MaskTree& mask, std::span<const PreparedSurface> surfaces, float value,
@@ -97,7 +156,7 @@ class SoftDensity {
   openvdb::FloatTree::Ptr shells() {
     budget_.take(bytesOfFloats(near_), "the density grid", kScatteredAdvice);
     tree_ = std::make_shared<openvdb::FloatTree>(near_, 0.0F, openvdb::TopologyCopy());
-    std::vector<std::vector<Index>> all;
+    FacesOfSurfaces all;
     for (const PreparedSurface& surface : surfaces_)
       all.push_back(numbered(surface.base.mesh.faceCount()));
     addShells(all, 1);
@@ -109,16 +168,20 @@ class SoftDensity {
   openvdb::FloatTree::Ptr solid() {
     budget_.require(bytesOfFilling(mask_), "the inside", kScatteredAdvice);
     solid_ = solidOf(mask_, surfaces_, budget_, progress_);
-    std::vector<std::vector<Index>> bodies, sheets;
+    BodyGroups groups(surfaces_.size());
+    FacesOfSurfaces sheets;
     bool anySheet = false;
-    for (const PreparedSurface& surface : surfaces_) {
-      SolidAndSheets parts = solidAndSheets(surface, mask_, *solid_, progress_);
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+      BodiesAndSheets parts = bodiesAndSheets(surfaces_[i], mask_, *solid_, progress_);
+      for (const MeshComponent& body : parts.bodies) groups.add(i, surfaces_[i].base.mesh, body);
       anySheet |= !parts.sheets.empty();
-      bodies.push_back(std::move(parts.solid));
       sheets.push_back(std::move(parts.sheets));
     }
     makeSolidTree();
-    addBodies(bodies, anySheet ? 0.7 : 1);
+    const double part = (anySheet ? 0.7 : 1) / static_cast<double>(groups.faces().size());
+    const float reach = groups.faces().size() > 1 ? kReachOfSolids : kReachOfSolid;
+    for (const FacesOfSurfaces& faces : groups.faces()) addBodies(faces, reach, part);
+    decideUnknown();
     if (anySheet) addShells(sheets, 0.3);
     switchOffEmpty();
     openvdb::tools::prune(*tree_);
@@ -126,21 +189,43 @@ class SoftDensity {
   }
 
  private:
-  /// `value` at solid voxels, but 0 at those that a surface crosses and that are not enclosed.
+  /// `value` at solid voxels, but kUnknown near the surface; there `value` only at enclosed voxels.
   void makeSolidTree() {
     openvdb::MaskTree all(near_);
     all.topologyUnion(*solid_);
     budget_.take(bytesOfFloats(all), "the density grid", kScatteredAdvice);
     tree_ = std::make_shared<openvdb::FloatTree>(*solid_, 0.0F, value_, openvdb::TopologyCopy());
     tree_->topologyUnion(near_);
-    std::vector<const openvdb::MaskTree::LeafNodeType*> leaves;
-    mask_.getNodes(leaves);
+    forEachLeafNear([&](const MaskLeaf& near, const MaskLeaf* mask, float* values) {
+      const openvdb::tree::ValueAccessor<const openvdb::MaskTree> solid(*solid_);
+      for (auto voxel = near.cbeginValueOn(); voxel; ++voxel) {
+        const bool crossed = mask != nullptr && mask->isValueOn(voxel.pos());
+        if (!crossed || !isEnclosed(solid, voxel.getCoord())) values[voxel.pos()] = kUnknown;
+      }
+    });
+  }
+
+  /// Voxels that no foot is near.
+  void decideUnknown() {
+    forEachLeafNear([&](const MaskLeaf& near, const MaskLeaf* mask, float* values) {
+      const SolidLeaf solid(*solid_, near.origin());
+      for (auto voxel = near.cbeginValueOn(); voxel; ++voxel) {
+        float& value = values[voxel.pos()];
+        const bool crossed = mask != nullptr && mask->isValueOn(voxel.pos());
+        if (value == kUnknown) value = !crossed && solid.isOn(voxel.pos()) ? value_ : 0;
+      }
+    });
+  }
+
+  /// Calls visit(leaf of near_, leaf of the mask or null, values).
+  template <class Visit>
+  void forEachLeafNear(Visit&& visit) {
+    std::vector<const MaskLeaf*> leaves;
+    std::as_const(near_).getNodes(leaves);
     parallelForEach(leaves.size(), kLeavesPerTask, [&](std::size_t l) {
       progress_.check();
-      openvdb::tree::ValueAccessor<const openvdb::MaskTree> solid(*solid_);
-      float* const values = tree_->probeLeaf(leaves[l]->origin())->buffer().data();
-      for (auto voxel = leaves[l]->cbeginValueOn(); voxel; ++voxel)
-        if (!isEnclosed(solid, voxel.getCoord())) values[voxel.pos()] = 0;
+      const openvdb::Coord origin = leaves[l]->origin();
+      visit(*leaves[l], mask_.probeConstLeaf(origin), tree_->probeLeaf(origin)->buffer().data());
     });
   }
 
@@ -155,29 +240,25 @@ class SoftDensity {
     return true;
   }
 
-  void addBodies(const std::vector<std::vector<Index>>& faces, double part) {
-    visitFeetOf(faces, kReachOfSolid, true, part,
+  void addBodies(const FacesOfSurfaces& faces, float reach, double part) {
+    visitFeetOf(faces, reach, true, part,
                 [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& feet) {
-                  const auto* mask = mask_.probeConstLeaf(origin);
-                  const auto* solid = solid_->probeConstLeaf(origin);
-                  const bool solidTile = solid == nullptr && solid_->isValueOn(origin);
+                  const MaskLeaf* mask = mask_.probeConstLeaf(origin);
+                  const SolidLeaf solid(*solid_, origin);
                   auto* leaf = tree_->probeLeaf(origin);
                   float* const values = leaf->buffer().data();
                   feet.forEachFound([&](unsigned i) {
-                    const bool crossed = mask != nullptr && mask->isValueOn(i);
-                    if (crossed && values[i] != 0) return;  // enclosed
                     double distance = double{feet.distance[i]};
-                    if (!crossed && std::abs(distance) >= kCertainSide) {
-                      const bool inside = solid != nullptr ? solid->isValueOn(i) : solidTile;
-                      distance = inside ? -std::abs(distance) : std::abs(distance);
-                    }
-                    values[i] = scaled(
-                        coverage(distance, planeNormal(bins, feet.place[i], globalOf(*leaf, i))));
+                    const bool crossed = mask != nullptr && mask->isValueOn(i);
+                    if (!crossed && std::abs(distance) >= kCertainSide)
+                      distance = std::copysign(distance, solid.isOn(i) ? -1.0 : 1.0);
+                    const Vec3d normal = planeNormal(bins, feet.place[i], globalOf(*leaf, i));
+                    values[i] = std::max(values[i], scaled(coverage(distance, normal)));
                   });
                 });
   }
 
-  void addShells(const std::vector<std::vector<Index>>& faces, double part) {
+  void addShells(const FacesOfSurfaces& faces, double part) {
     visitFeetOf(faces, kReachOfShell, false, part,
                 [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& feet) {
                   auto* leaf = tree_->probeLeaf(origin);
@@ -192,7 +273,7 @@ class SoftDensity {
 
   /// Visits the feet, on some faces of each surface, of all voxels near the active ones.
   /// @param onlyExposed  whether to leave out parts of surfaces within others
-  void visitFeetOf(const std::vector<std::vector<Index>>& faces, float reach, bool onlyExposed,
+  void visitFeetOf(const FacesOfSurfaces& faces, float reach, bool onlyExposed,
                    double part, const VisitLeafFeet& visit) {
     constexpr double kPartOfCells = 0.3;
     FootCells cells({.reach = reach, .polynomials = false, .newtonStop = 0.02F});
@@ -238,6 +319,7 @@ class SoftDensity {
   }
 
   static constexpr std::size_t kLeavesPerTask = 64;
+  static constexpr float kUnknown = -1;
   /// Within this distance, in voxels, the side of the closest point is that of the voxel.
   static constexpr double kCertainSide = 0.5;
 
