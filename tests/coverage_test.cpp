@@ -33,7 +33,8 @@ std::vector<Vec3d> normals() {
                             {1e-5, 1e-3, 1}, {1e-9, 0.3, 0.9}, {-1e-300, 1, 1e-7}};
   std::mt19937 random(5);
   std::normal_distribution<double> component;
-  for (int i = 0; i < 40; ++i) all.emplace_back(component(random), component(random), component(random));
+  for (int i = 0; i < 40; ++i)
+    all.emplace_back(component(random), component(random), component(random));
   for (Vec3d& n : all) n.normalize();
   return all;
 }

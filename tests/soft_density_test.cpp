@@ -11,9 +11,8 @@
 #include "tests/shapes.h"
 #include "tests/spline_torus.h"
 
-#include <openvdb/tools/Interpolation.h>
-
 #include <catch2/catch.hpp>
+#include <openvdb/tools/Interpolation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +60,8 @@ Measures limitMeasures(const PolygonMesh& mesh) {
   };
   const Measures coarse = at(5);
   const Measures fine = at(6);
-  return {fine.volume + (fine.volume - coarse.volume) / 3, fine.area + (fine.area - coarse.area) / 3};
+  return {fine.volume + (fine.volume - coarse.volume) / 3,
+          fine.area + (fine.area - coarse.area) / 3};
 }
 
 struct Difference {
@@ -102,8 +102,8 @@ Difference differenceFrom(const openvdb::FloatGrid& density, const openvdb::Floa
 TEST_CASE("a soft solid has the volume inside its surface", "[soft][golden]") {
   const test::SplineTorus torus(12, 8);
   for (const double size : {1.0 / 20, 1.0 / 40, 1.0 / 80}) {
-    const double volume = volumeOf(*softDensity(test::oneObject(test::torusGrid(12, 8)),
-                                                softOptions(Fill::kSolid, size)));
+    const double volume = volumeOf(
+        *softDensity(test::oneObject(test::torusGrid(12, 8)), softOptions(Fill::kSolid, size)));
     CAPTURE(size, volume / torus.volume() - 1);
     CHECK(volume == Approx(torus.volume()).epsilon(size * size));
   }
@@ -203,7 +203,8 @@ TEST_CASE("a cavity is soft too, and parts inside others leave no trace", "[soft
   const PolygonMesh cavity = test::scaled(test::cube(), 2);
   CHECK(volume(test::together(outer, test::insideOut(cavity), Vec3d(0, 0, 0))) ==
         Approx(volume(outer) - volume(cavity)).epsilon(1e-3));
-  CHECK(volume(test::together(outer, cavity, Vec3d(0, 0, 0))) == Approx(volume(outer)).epsilon(1e-6));
+  CHECK(volume(test::together(outer, cavity, Vec3d(0, 0, 0))) ==
+        Approx(volume(outer)).epsilon(1e-6));
 }
 
 TEST_CASE("polygons as they are have soft edges", "[soft][golden]") {

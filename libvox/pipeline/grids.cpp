@@ -71,11 +71,12 @@ std::uint64_t bytesOfVectors(const openvdb::MaskTree& mask) {
   return bytesOfGrid<openvdb::Vec3STree>(mask);
 }
 
-double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds) {
+double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds, Edge edge) {
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   double work = 0;
   for (const GridKind kind : kinds) {
-    if (kind == GridKind::kDensity) work += workOfDensity(area);
+    if (kind == GridKind::kDensity)
+      work += edge == Edge::kSoft ? workOfSoftDensity(area) : workOfDensity(area);
     if (kind == GridKind::kSurface) work += workOfLevelSet(area);
     if (kind == GridKind::kNormal) work += workOfNormals(area);
     if (kind == GridKind::kColor) work += workOfColor(area);
@@ -99,7 +100,8 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
     case GridKind::kDensity:
       return makeDensity(*mask, surfaces, volume, budget, progress);
     case GridKind::kSurface:
-      return surfaceGrid(surfaces, volume, mask->transform(), markVoxels, budget, progress, warnings);
+      return surfaceGrid(surfaces, volume, mask->transform(), markVoxels, budget, progress,
+                         warnings);
     case GridKind::kNormal:
       return makeNormalGrid(*mask, surfaces, budget, progress);
     case GridKind::kColor:

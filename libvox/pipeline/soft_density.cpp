@@ -28,8 +28,8 @@
 namespace vox {
 namespace {
 
-// The cubes that a plane crosses are nearer than sqrt(3) / 2, and vertices that switched voxels on may
-// lie a little off the limit surface.
+// The cubes that a plane crosses are nearer than sqrt(3) / 2, and vertices that switched voxels on
+// may lie a little off the limit surface.
 constexpr float kReachOfSolid = 1.1F;
 // Where bodies meet, a voxel crossed by one of them may lie as deep as this in another.
 constexpr float kReachOfSolids = 2;
@@ -60,14 +60,14 @@ PlacedFoot placedFoot(const FootBins& bins, const FootPlace& at) {
   return {cell.prism.origin, jet.s, jet.normal()};
 }
 
-/// Unit normal, of any sign, of the plane that stands for the surface near a voxel: the normal of the
-/// surface, or at edges and boundaries the direction from the foot to the voxel's centre.
+/// Unit normal, of any sign, of the plane that stands for the surface near a voxel: the normal of
+/// the surface, or at edges and boundaries the direction from the foot to the voxel's centre.
 Vec3d planeNormal(const FootBins& bins, const FootPlace& at, const openvdb::Coord& voxel) {
   const PlacedFoot placed = placedFoot(bins, at);
   const openvdb::Coord step = voxel - placed.origin;
-  const Float3 away = difference({static_cast<float>(step[0]), static_cast<float>(step[1]),
-                                  static_cast<float>(step[2])},
-                                 placed.foot);
+  const Float3 away = difference(
+      {static_cast<float>(step[0]), static_cast<float>(step[1]), static_cast<float>(step[2])},
+      placed.foot);
   const Vec3d toVoxel(away[0], away[1], away[2]);
   const Vec3d normal =
       Vec3d(placed.normal[0], placed.normal[1], placed.normal[2]).stableNormalized();
@@ -80,13 +80,12 @@ Vec3d planeNormal(const FootBins& bins, const FootPlace& at, const openvdb::Coor
   return distance > 0 ? Vec3d(toVoxel / distance) : Vec3d(0, 0, 1);
 }
 
-using VisitLeafFeet =
-    std::function<void(const FootBins&, const openvdb::Coord&, const LeafFeet&)>;
+using VisitLeafFeet = std::function<void(const FootBins&, const openvdb::Coord&, const LeafFeet&)>;
 
 using FacesOfSurfaces = std::vector<std::vector<Index>>;
 
-/// Bodies in groups. Of a group no two meet, if there are not too many: so the bodies that meet at a
-/// voxel have a foot each.
+/// Bodies in groups. Of a group no two meet, if there are not too many: so the bodies that meet at
+/// a voxel have a foot each.
 class BodyGroups {
  public:
   explicit BodyGroups(std::size_t surfaces) : surfaces_(surfaces) {}
@@ -131,8 +130,7 @@ using MaskLeaf = openvdb::MaskTree::LeafNodeType;
 class SolidLeaf {
  public:
   SolidLeaf(const openvdb::MaskTree& solid, const openvdb::Coord& origin)
-      : leaf_(solid.probeConstLeaf(origin)),
-        tile_(leaf_ == nullptr && solid.isValueOn(origin)) {}
+      : leaf_(solid.probeConstLeaf(origin)), tile_(leaf_ == nullptr && solid.isValueOn(origin)) {}
   bool isOn(unsigned voxel) const { return leaf_ != nullptr ? leaf_->isValueOn(voxel) : tile_; }
 
  private:
@@ -229,8 +227,8 @@ class SoftDensity {
     });
   }
 
-  /// Whether all 26 neighbours are solid. Where a plane crosses voxels, each of them has a neighbour
-  /// beyond all these voxels; so the surface in an enclosed voxel has no outside.
+  /// Whether all 26 neighbours are solid. Where a plane crosses voxels, each of them has a
+  /// neighbour beyond all these voxels; so the surface in an enclosed voxel has no outside.
   template <class Accessor>
   static bool isEnclosed(const Accessor& solid, const openvdb::Coord& voxel) {
     for (int x = -1; x <= 1; ++x)
@@ -265,16 +263,16 @@ class SoftDensity {
                   float* const values = leaf->buffer().data();
                   feet.forEachFound([&](unsigned i) {
                     const Vec3d normal = planeNormal(bins, feet.place[i], globalOf(*leaf, i));
-                    values[i] = std::max(
-                        values[i], scaled(shellCoverage(double{feet.distance[i]}, normal)));
+                    values[i] = std::max(values[i],
+                                         scaled(shellCoverage(double{feet.distance[i]}, normal)));
                   });
                 });
   }
 
   /// Visits the feet, on some faces of each surface, of all voxels near the active ones.
   /// @param onlyExposed  whether to leave out parts of surfaces within others
-  void visitFeetOf(const FacesOfSurfaces& faces, float reach, bool onlyExposed,
-                   double part, const VisitLeafFeet& visit) {
+  void visitFeetOf(const FacesOfSurfaces& faces, float reach, bool onlyExposed, double part,
+                   const VisitLeafFeet& visit) {
     constexpr double kPartOfCells = 0.3;
     FootCells cells({.reach = reach, .polynomials = false, .newtonStop = 0.02F});
     for (std::size_t s = 0; s < surfaces_.size(); ++s)
@@ -284,10 +282,9 @@ class SoftDensity {
     budget_.require(cells.bytes(), "the cells of the surface",
                     "use larger voxels, or raise --max-memory");
     const FootBins bins = cells.bins();
-    forEachFoot(bins, near_, progress_, (1 - kPartOfCells) * part,
-                [&](const openvdb::Coord& origin, const LeafFeet& feet) {
-                  visit(bins, origin, feet);
-                });
+    forEachFoot(
+        bins, near_, progress_, (1 - kPartOfCells) * part,
+        [&](const openvdb::Coord& origin, const LeafFeet& feet) { visit(bins, origin, feet); });
   }
 
   void addCells(const PreparedSurface& surface, const std::vector<Index>& faces, bool onlyExposed,

@@ -15,8 +15,8 @@ class Progress;
 /// The grid `density` with soft edges: `value` times the part of each voxel's cube that is inside
 /// (Fill::kSolid), or within half a voxel of a surface (Fill::kSurface, and sheets of kSolid). This
 /// part is that of the plane through the point of the surface closest to the voxel's centre. Voxels
-/// with the part 0 are inactive. What is inside is decided as in solidOf (inside.h), but within half
-/// a voxel of the surface by the side of the closest point.
+/// with the part 0 are inactive. What is inside is decided as in solidOf (inside.h), but within
+/// half a voxel of the surface by the side of the closest point.
 /// @param mask  active voxels of all surfaces, without tiles
 /// @throws LimitError
 /// @throws Cancelled

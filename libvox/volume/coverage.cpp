@@ -1,5 +1,5 @@
-// Volume of a cube below a plane. Source: Scardovelli & Zaleski 2000, "Analytical relations connecting
-// linear interfaces and volume fractions in rectangular grids".
+// Volume of a cube below a plane. Source: Scardovelli & Zaleski 2000, "Analytical relations
+// connecting linear interfaces and volume fractions in rectangular grids".
 
 #include "libvox/volume/coverage.h"
 
