@@ -46,10 +46,10 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
 }
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(text, table, "[convert]",
-                   {"dim", "voxel_size", "grids", "fill", "edge", "gain", "open_mesh", "band",
-                    "tolerance", "half", "compression", "target", "up", "until", "voxelize", "weld",
-                    "strict"});
+  requireKnownKeys(
+      text, table, "[convert]",
+      {"dim", "voxel_size", "grids", "fill", "edge", "gain", "open_mesh", "band", "tolerance",
+       "half", "compression", "target", "up", "until", "voxelize", "weld", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
