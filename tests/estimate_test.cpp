@@ -76,6 +76,13 @@ TEST_CASE("estimates are within a factor of 1.5 for every scene", "[estimate]") 
         options.grids = std::vector{kind};
         checkEstimate(scene, options);
       }
+      for (const Fill fill : {Fill::kSurface, Fill::kSolid}) {
+        options.grids = std::vector{GridKind::kDensity};
+        options.volume.edge = Edge::kSoft;
+        options.volume.fill = fill;
+        checkEstimate(scene, options);
+        options.volume = {};
+      }
       if (dim > 64) continue;
       options.grids = std::vector{GridKind::kSurface};
       checkEstimate(scene, options);

@@ -22,6 +22,7 @@ OPTIONS = [
     "--interpolate both",
     "--boundary free",
     "--grids density,mask,surface --fill solid",
+    "--grids density --fill solid --edge soft",
     "--grids normal,color --texture marble",
     "--grids surface --open-mesh unsigned",
     "--until levels=1",

@@ -85,15 +85,21 @@ TEST_CASE("any mutated mesh becomes solids and level sets, or is refused with an
     ConvertOptions options = anyOptions(random, scene.objects[0].mesh.pointCount());
     options.grids = std::vector{GridKind::kMask, GridKind::kDensity, GridKind::kSurface};
     options.volume.fill = Fill::kSolid;
+    options.volume.edge = kEdgeNames[random() % 2].first;
     options.volume.openMesh = kOpenMeshNames[1 + random() % 2].first;
     try {
       const Conversion conversion = convert(scene, options);
       const auto& mask = dynamic_cast<const openvdb::MaskGrid&>(*conversion.grids[0]);
       const auto& solid = dynamic_cast<const openvdb::FloatGrid&>(*conversion.grids[1]);
       const auto& surface = dynamic_cast<const openvdb::FloatGrid&>(*conversion.grids[2]);
-      CHECK(solid.activeVoxelCount() >= mask.activeVoxelCount());
-      for (auto voxel = mask.cbeginValueOn(); voxel; ++voxel)
-        REQUIRE(solid.tree().isValueOn(voxel.getCoord()));
+      const auto gain = solid.metaValue<float>("vox_gain");
+      for (auto value = solid.cbeginValueOn(); value; ++value)
+        REQUIRE((*value > 0 && *value <= gain));
+      if (options.volume.edge == Edge::kHard) {
+        CHECK(solid.activeVoxelCount() >= mask.activeVoxelCount());
+        for (auto voxel = mask.cbeginValueOn(); voxel; ++voxel)
+          REQUIRE(solid.tree().isValueOn(voxel.getCoord()));
+      }
       for (auto value = surface.cbeginValueAll(); value; ++value)
         REQUIRE(std::abs(*value) <= surface.background());
       ++converted;

@@ -137,6 +137,7 @@ TEST_CASE("options written as text are read again", "[request]") {
     options.weldTolerance = 1e-5;
     options.texture = parseTexture("marble:scale=0.2,seed=3,colors=#102030/1:0.5:0");
     options.volume.fill = Fill::kSolid;
+    options.volume.edge = Edge::kSoft;
     options.volume.gain = 0.1;
     options.volume.openMesh = OpenMesh::kUnsigned;
     options.volume.band = 4;

@@ -37,7 +37,7 @@ void checkRefused(const std::string& text, const std::string& where, const std::
 TEST_CASE("a scene gives settings and objects", "[scene]") {
   const Scene scene = read(
       "[convert]\ndim = 128\ngrids = ['mask', 'density']\nweld = 0.25\nstrict = true\n"
-      "fill = 'solid'\ngain = 30\nopen_mesh = 'error'\n"
+      "fill = 'solid'\nedge = 'soft'\ngain = 30\nopen_mesh = 'error'\n"
       "[[object]]\nname = 't'\n" +
       kTriangleKeys + "[[object]]\n" + kTriangleKeys);
   CHECK(scene.dim == 128);
@@ -46,6 +46,7 @@ TEST_CASE("a scene gives settings and objects", "[scene]") {
   CHECK(scene.weldTolerance == 0.25);
   CHECK(scene.strict == true);
   CHECK(scene.volume.fill == Fill::kSolid);
+  CHECK(scene.volume.edge == vox::Edge::kSoft);
   CHECK(scene.volume.gain == 30);
   CHECK(scene.volume.openMesh == vox::OpenMesh::kError);
   REQUIRE(scene.objects.size() == 2);

@@ -44,6 +44,7 @@ Json toJson(const ObjectReport& object) {
 
 Json toJson(const VolumeOptions& volume) {
   return {{"fill", orNull(kFillNames, volume.fill)},
+          {"edge", orNull(kEdgeNames, volume.edge)},
           {"gain", orNull(volume.gain)},
           {"open_mesh", orNull(kOpenMeshNames, volume.openMesh)},
           {"band", orNull(volume.band)},

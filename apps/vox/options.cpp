@@ -180,6 +180,13 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .type("surface|solid")
       .group("Output");
   command
+      .add("--edge", arguments.edge,
+           "How the grid density ends at the surface: with one value at all its voxels (hard), or "
+           "with the part of each voxel that is inside, or without --fill solid within half a "
+           "voxel of the surface (soft) (default: the scene's, or hard)")
+      .type("hard|soft")
+      .group("Output");
+  command
       .add("--gain", arguments.gain,
            "Value of the grid density at its voxels (default: the scene's, or 6 / voxel size, at "
            "least 1, which makes a surface opaque in Blender; 1 for --target houdini)")
@@ -236,6 +243,7 @@ void addFileOptions(const Command& command, VolumeArguments& arguments) {
 VolumeOptions parseVolume(const VolumeArguments& arguments) {
   VolumeOptions volume;
   volume.fill = parseNamed("--fill", kFillNames, arguments.fill);
+  volume.edge = parseNamed("--edge", kEdgeNames, arguments.edge);
   volume.openMesh = parseNamed("--open-mesh", kOpenMeshNames, arguments.openMesh);
   volume.compression = parseNamed("--compression", kCompressionNames, arguments.compression);
   volume.target = parseNamed("--target", kTargetNames, arguments.target);

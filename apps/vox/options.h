@@ -54,10 +54,11 @@ void addVoxelizationOptions(const Command& command, VoxelizationArguments& argum
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
 
-/// --fill, --gain, --open-mesh, --band, --tolerance, --half, --compression, --target and --up, as
-/// typed.
+/// --fill, --edge, --gain, --open-mesh, --band, --tolerance, --half, --compression, --target and
+/// --up, as typed.
 struct VolumeArguments {
   std::string fill;
+  std::string edge;
   std::string openMesh;
   std::string compression;
   std::string target;

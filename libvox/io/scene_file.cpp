@@ -32,6 +32,7 @@ std::vector<GridKind> readGrids(const SceneText& text, const toml::node& node) {
 VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table) {
   VolumeOptions volume;
   readNamed(text, table, "fill", kFillNames, volume.fill);
+  readNamed(text, table, "edge", kEdgeNames, volume.edge);
   readNamed(text, table, "open_mesh", kOpenMeshNames, volume.openMesh);
   readNamed(text, table, "compression", kCompressionNames, volume.compression);
   readNamed(text, table, "target", kTargetNames, volume.target);
@@ -45,9 +46,10 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
 }
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(text, table, "[convert]",
-                   {"dim", "voxel_size", "grids", "fill", "gain", "open_mesh", "band", "tolerance",
-                    "half", "compression", "target", "up", "until", "voxelize", "weld", "strict"});
+  requireKnownKeys(
+      text, table, "[convert]",
+      {"dim", "voxel_size", "grids", "fill", "edge", "gain", "open_mesh", "band", "tolerance",
+       "half", "compression", "target", "up", "until", "voxelize", "weld", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));

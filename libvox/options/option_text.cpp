@@ -28,6 +28,7 @@ void forEachField(Options& options, Visit&& visit) {
   visit("weld", options.weldTolerance);
   visit("texture", options.texture);
   visit("fill", options.volume.fill, kFillNames);
+  visit("edge", options.volume.edge, kEdgeNames);
   visit("gain", options.volume.gain);
   visit("open-mesh", options.volume.openMesh, kOpenMeshNames);
   visit("band", options.volume.band);

@@ -16,6 +16,13 @@ enum class Fill {
 inline constexpr NameTable<Fill, 2> kFillNames = {
     {{Fill::kSurface, "surface"}, {Fill::kSolid, "solid"}}};
 
+/// How the grid `density` ends at the surface.
+enum class Edge {
+  kHard,  ///< one value at all its voxels
+  kSoft,  ///< the part of each voxel's cube that is inside, or within half a voxel of the surface
+};
+inline constexpr NameTable<Edge, 2> kEdgeNames = {{{Edge::kHard, "hard"}, {Edge::kSoft, "soft"}}};
+
 /// How volumes treat a component of the mesh that has no inside: one with boundary, or one-sided.
 enum class OpenMesh {
   kError,     ///< the object is refused
@@ -51,6 +58,7 @@ inline constexpr double kDefaultTolerance = 0.05;  ///< voxels
 /// How to make volumes. A value that is not set comes from the scene, else from the default.
 struct VolumeOptions {
   std::optional<Fill> fill;                ///< default: kSurface
+  std::optional<Edge> edge;                ///< default: kHard
   std::optional<double> gain;              ///< value of `density` at its voxels; see densityValue()
   std::optional<OpenMesh> openMesh;        ///< default: kSurface
   std::optional<double> band;              ///< half width of `surface` in voxels; default 3
@@ -64,6 +72,7 @@ struct VolumeOptions {
 /// The same with defaults applied.
 struct VolumeSettings {
   Fill fill = Fill::kSurface;
+  Edge edge = Edge::kHard;
   OpenMesh openMesh = OpenMesh::kSurface;
   double band = kDefaultBand;
   double tolerance = kDefaultTolerance;

@@ -165,7 +165,7 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, request, report);
   for (const GridKind kind : request.grids) {
-    progress.begin("grids", workOfGrids(prepared.areas, std::array{kind}));
+    progress.begin("grids", workOfGrids(prepared.areas, std::array{kind}, volume.edge));
     result.grids.push_back(finished(makeGrid(kind, {mask, prepared.surfaces, markVoxels}, volume,
                                              prepared.budget, progress, report.warnings),
                                     kind, volume, metadata));

@@ -6,18 +6,17 @@
 #include "libvox/core/progress.h"
 #include "libvox/foot/band.h"
 #include "libvox/grid/openvdb.h"
-#include "libvox/mesh/patch.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/exposed_pieces.h"
 #include "libvox/pipeline/foot_cells.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
+#include "libvox/pipeline/sheets.h"
 #include "libvox/volume/fill.h"
 
 #include <openvdb/tools/Composite.h>
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 #include <utility>
 
@@ -72,36 +71,6 @@ void setGroups(std::vector<Part>& parts) {
     if (around != nullptr) cavity.group = around->group;
   }
 }
-
-/// How often the inner side of a part is solid, beyond the voxels that surfaces cross.
-struct Votes {
-  std::atomic<std::uint64_t> solid = 0, all = 0;
-};
-
-/// Counts the votes of parts.
-class InnerSide : public LimitSink {
- public:
-  /// @param parts  number of the part of each corner
-  InnerSide(const Inside& inside, std::span<const std::uint32_t> parts, std::span<Votes> votes)
-      : inside_(inside), parts_(parts), votes_(votes) {}
-
-  void piece(const LimitPiece& piece) override {
-    constexpr double kBeyondSurface = 2;  // voxels
-    const auto& p = piece.points;
-    const Vec3d normal = normalOfTangents(p[2][1] - p[0][1], p[1][2] - p[1][0]);
-    const Vec3d inner = p[1][1] - kBeyondSurface * normal;
-    const auto voxel = openvdb::Coord::round(openvdb::Vec3d(inner.data()));
-    if (inside_.surface->isValueOn(voxel)) return;
-    Votes& votes = votes_[parts_[piece.square.corner]];
-    ++votes.all;
-    if (inside_.solid->isValueOn(voxel)) ++votes.solid;
-  }
-
- private:
-  const Inside& inside_;
-  std::span<const std::uint32_t> parts_;
-  std::span<Votes> votes_;
-};
 
 /// A number for each corner of some parts of a surface.
 template <class NumberOf>
@@ -180,24 +149,18 @@ class LevelSetMaker {
   static constexpr const char* kAdvice =
       "use a smaller --band or larger voxels, or raise --max-memory";
 
-  /// Open components that enclose something become closed ones.
+  /// Open parts that enclose something become closed ones.
   void findEnclosing() {
     findInside();
     std::vector<Part> sheets;
-    forEachSurface(open_, [&](std::span<const Part> parts) {
-      const PreparedSurface& surface = surfaces_[parts[0].surface];
-      std::vector<Votes> votes(parts.size());
-      const std::vector<std::uint32_t> numbers = numbersOfCorners(
-          surface.base.mesh, parts,
-          [&](const Part& part) { return static_cast<std::uint32_t>(&part - parts.data()); });
-      const PieceFilter count = [&](LimitSink&) {
-        return std::make_unique<InnerSide>(inside_, numbers, votes);
-      };
-      FootCells none({.reach = 0});
-      none.addLimitSurface(surface, facesOf(surface.base.mesh, parts), {}, count, progress_, 0);
-      for (std::size_t i = 0; i < parts.size(); ++i)
-        (2 * votes[i].solid > votes[i].all ? closed_ : sheets).push_back(parts[i]);
-    });
+    std::vector<bool> have;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      const std::size_t s = open_[i].surface;
+      if (i == 0 || open_[i - 1].surface != s)
+        have = haveInside(surfaces_[s], components_[s], inside_, progress_);
+      const auto number = static_cast<std::size_t>(open_[i].component - components_[s].data());
+      (have[number] ? closed_ : sheets).push_back(open_[i]);
+    }
     open_ = std::move(sheets);
   }
 

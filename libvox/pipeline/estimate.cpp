@@ -37,6 +37,7 @@ struct Measure {
   double taxicabArea = 0;  ///< integral of |nx| + |ny| + |nz|: number of unit cubes that it meets
   double largestArea = 0;  ///< integral of max(|nx|, |ny|, |nz|): fewest cubes that separate it
   double volume = 0;       ///< inside
+  double sheetArea = 0;    ///< of surfaces without an inside
   double activeVoxels = 0;
   double leaves = 0;  ///< nodes of 8^3 voxels
   double lowers = 0;  ///< of 128^3
@@ -138,6 +139,7 @@ Measure measureOf(const PreparedSurface& surface, Cubes& leaves, Cubes& lowers) 
   const std::vector<Index> faces = numbered(polygons.faceCount());
   const auto& twin = surface.base.adjacency.twin;
   const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
+  if (open) measure.sheetArea = measure.area;
   if (!open) measure.volume = std::max(0.0, signedVolume(polygons, faces).volume);
   measure.activeVoxels = activeVoxelsOf(surface.way, measure);
   return measure;
@@ -154,6 +156,7 @@ Measure measureOf(std::span<const PreparedSurface> surfaces) {
     all.area += one.area;
     all.taxicabArea += one.taxicabArea;
     all.volume += one.volume;
+    all.sheetArea += one.sheetArea;
     all.activeVoxels += one.activeVoxels;
     all.textured |= surface.texture.has_value();
     all.smooth |= levelOf(surface.way) != 0;
@@ -199,6 +202,29 @@ GridEstimate estimateDensity(const Measure& m, const VolumeSettings& volume) {
   return grid;
 }
 
+/// With soft edges. The cubes of a leaf lie in a cube of 8 voxels a side, and those that meet a
+/// shell within half a voxel of it.
+GridEstimate estimateSoftDensity(const Measure& m, const VolumeSettings& volume) {
+  const bool solid = volume.fill == Fill::kSolid;
+  const double sheets = solid ? m.sheetArea : m.area;
+  const double shell = m.area / (FloatLeaf::DIM * FloatLeaf::DIM);  // leaves that it adds
+  GridEstimate grid = estimateMask(m);
+  grid.kind = GridKind::kDensity;
+  // Half of the cubes that a surface of a body crosses have their centres outside.
+  const double outer = solid && m.sheetArea == 0 ? m.taxicabArea / 2 : m.taxicabArea;
+  grid.voxels = m.volume * (solid ? 1 : 0) + outer + sheets;
+  const double masks = (solid ? 3 : 1) * grid.bytes;
+  if (!solid) grid.leaves += shell / FloatLeaf::DIM;
+  grid.bytes = bytesOfValues(grid.leaves, m);
+  // The voxels around those of the surface are looked at, too.
+  const double leavesNear = m.leaves + 3 * shell / FloatLeaf::DIM;
+  grid.peakBytes = bytesOfValues(leavesNear, m) + masks + kCellBytes * m.area;
+  const double filePerVoxel = volume.half ? 2.2 : 4.2;
+  constexpr double kWithInner = 1.7;  // leaves at the surface also hold voxels deep inside
+  grid.fileBytes += ((solid ? kWithInner : 1) * m.taxicabArea + sheets) * filePerVoxel;
+  return grid;
+}
+
 GridEstimate estimateSurface(const Measure& m, const VolumeSettings& volume) {
   const double band = volume.band;
   GridEstimate grid{GridKind::kSurface};
@@ -241,7 +267,8 @@ GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& v
     case GridKind::kMask:
       return estimateMask(m);
     case GridKind::kDensity:
-      return estimateDensity(m, volume);
+      return volume.edge == Edge::kSoft ? estimateSoftDensity(m, volume)
+                                        : estimateDensity(m, volume);
     case GridKind::kSurface:
       return estimateSurface(m, volume);
     case GridKind::kNormal:

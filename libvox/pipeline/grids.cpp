@@ -9,6 +9,7 @@
 #include "libvox/pipeline/distance.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/normals.h"
+#include "libvox/pipeline/soft_density.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
 #include "libvox/volume/fill.h"
@@ -30,21 +31,31 @@ std::uint64_t bytesOfGrid(const openvdb::MaskTree& mask) {
          nodes[1] * sizeof(Lower) + nodes[2] * sizeof(Upper);
 }
 
-openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
-                                   std::span<const PreparedSurface> surfaces,
-                                   const VolumeSettings& volume, MemoryBudget& budget,
-                                   const Progress& progress) {
+openvdb::FloatGrid::Ptr hardDensityGrid(const openvdb::MaskTree& mask,
+                                        std::span<const PreparedSurface> surfaces, Fill fill,
+                                        float value, MemoryBudget& budget,
+                                        const Progress& progress) {
   openvdb::MaskTree::ConstPtr solid;
-  const openvdb::MaskTree* tree = &mask.tree();
-  if (volume.fill == Fill::kSolid) {
+  const openvdb::MaskTree* tree = &mask;
+  if (fill == Fill::kSolid) {
     budget.require(bytesOfFilling(*tree), "the inside", kScatteredAdvice);
     solid = solidOf(*tree, surfaces, budget, progress);
     tree = solid.get();
   }
   budget.take(bytesOfFloats(*tree), "the density grid", kScatteredAdvice);
+  return densityGrid(*tree, value);
+}
+
+openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
+                                   std::span<const PreparedSurface> surfaces,
+                                   const VolumeSettings& volume, MemoryBudget& budget,
+                                   Progress& progress) {
   const auto value =
       static_cast<float>(densityValue(volume.gain, volume.target, mask.voxelSize()[0]));
-  auto density = densityGrid(*tree, value);
+  const auto density =
+      volume.edge == Edge::kSoft
+          ? softDensityGrid(mask.tree(), surfaces, volume.fill, value, budget, progress)
+          : hardDensityGrid(mask.tree(), surfaces, volume.fill, value, budget, progress);
   density->setTransform(mask.transform().copy());
   density->insertMeta(kGainMetadata, openvdb::FloatMetadata(value));
   return density;
@@ -60,11 +71,12 @@ std::uint64_t bytesOfVectors(const openvdb::MaskTree& mask) {
   return bytesOfGrid<openvdb::Vec3STree>(mask);
 }
 
-double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds) {
+double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds, Edge edge) {
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   double work = 0;
   for (const GridKind kind : kinds) {
-    if (kind == GridKind::kDensity) work += workOfDensity(area);
+    if (kind == GridKind::kDensity)
+      work += edge == Edge::kSoft ? workOfSoftDensity(area) : workOfDensity(area);
     if (kind == GridKind::kSurface) work += workOfLevelSet(area);
     if (kind == GridKind::kNormal) work += workOfNormals(area);
     if (kind == GridKind::kColor) work += workOfColor(area);

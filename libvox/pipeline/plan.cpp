@@ -47,7 +47,7 @@ void plan(const Scene& scene, const Request& request, std::span<const double> ar
                   workOfSurface(areas[i], mesh.cornerCount()));
     for (const GridKind kind : request.grids) progress.plan(workOfWriting(kind, areas[i]));
   }
-  progress.plan(workOfGrids(areas, request.grids));
+  progress.plan(workOfGrids(areas, request.grids, request.volume.edge));
 }
 
 }  // namespace vox

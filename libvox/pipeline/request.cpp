@@ -42,6 +42,7 @@ VolumeSettings volumeOf(const VolumeOptions& first, const VolumeOptions& second)
     setting = firstSet({first.*option, second.*option}, setting);
   };
   choose(&VolumeOptions::fill, all.fill);
+  choose(&VolumeOptions::edge, all.edge);
   choose(&VolumeOptions::openMesh, all.openMesh);
   choose(&VolumeOptions::band, all.band);
   choose(&VolumeOptions::tolerance, all.tolerance);

@@ -19,6 +19,10 @@ double workOfDensity(double area) {
   return 13 * area;
 }
 
+double workOfSoftDensity(double area) {
+  return 200 * area;
+}
+
 double workOfLevelSet(double area) {
   return 250 * area;
 }

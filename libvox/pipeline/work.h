@@ -17,6 +17,7 @@ inline constexpr double kPartBeforeInterpolation = 0.6;
 double workOfSurface(double area, std::uint64_t corners);
 /// Makes a grid from the voxels.
 double workOfDensity(double area);
+double workOfSoftDensity(double area);
 double workOfLevelSet(double area);
 double workOfNormals(double area);
 double workOfColor(double area);

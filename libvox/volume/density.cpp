@@ -5,6 +5,7 @@
 #include "libvox/grid/openvdb.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vox {
 
@@ -20,6 +21,10 @@ openvdb::FloatGrid::Ptr densityGrid(const openvdb::MaskTree& mask, float value) 
   constexpr float kBackground = 0;
   auto tree =
       std::make_shared<openvdb::FloatTree>(mask, kBackground, value, openvdb::TopologyCopy());
+  return densityGrid(std::move(tree));
+}
+
+openvdb::FloatGrid::Ptr densityGrid(openvdb::FloatTree::Ptr tree) {
   auto density = openvdb::FloatGrid::create(tree);
   density->setName("density");
   density->setGridClass(openvdb::GRID_FOG_VOLUME);

@@ -21,4 +21,7 @@ double densityValue(std::optional<double> gain, Target target, double voxelSize)
 /// Fog volume `density`: `value` at the active voxels and tiles of the mask, background 0.
 std::shared_ptr<openvdb::FloatGrid> densityGrid(const openvdb::MaskTree& mask, float value = 1);
 
+/// The same of a tree of values.
+std::shared_ptr<openvdb::FloatGrid> densityGrid(std::shared_ptr<openvdb::FloatTree> values);
+
 }  // namespace vox

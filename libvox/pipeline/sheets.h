@@ -1,0 +1,30 @@
+#pragma once
+
+#include "libvox/foot/band.h"
+#include "libvox/pipeline/components.h"
+#include "libvox/pipeline/prepared_surface.h"
+
+#include <span>
+#include <vector>
+
+namespace vox {
+
+class Progress;
+
+/// Whether each component of a surface has an inside: a closed one has, and an open one if its
+/// inner side is mostly solid, so that its holes are narrower than a voxel. The others are sheets.
+/// @param inside  of all objects
+/// @throws Cancelled
+std::vector<bool> haveInside(const PreparedSurface& surface,
+                             std::span<const MeshComponent> components, const Inside& inside,
+                             Progress& progress);
+
+/// The components of an object.
+struct BodiesAndSheets {
+  std::vector<MeshComponent> bodies;  ///< with inside
+  std::vector<Index> sheets;          ///< faces of the others, ascending
+};
+BodiesAndSheets bodiesAndSheets(const PreparedSurface& surface, const Inside& inside,
+                                Progress& progress);
+
+}  // namespace vox

@@ -1,0 +1,345 @@
+// The part of each voxel that is inside, or near a surface.
+
+#include "libvox/pipeline/soft_density.h"
+
+#include "libvox/core/memory.h"
+#include "libvox/core/numbered.h"
+#include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
+#include "libvox/foot/nearest_feet.h"
+#include "libvox/grid/openvdb.h"
+#include "libvox/pipeline/exposed_pieces.h"
+#include "libvox/pipeline/foot_cells.h"
+#include "libvox/pipeline/grids.h"
+#include "libvox/pipeline/inside.h"
+#include "libvox/pipeline/sheets.h"
+#include "libvox/volume/coverage.h"
+#include "libvox/volume/density.h"
+#include "libvox/volume/fill.h"
+
+#include <openvdb/tools/Morphology.h>
+#include <openvdb/tools/Prune.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace vox {
+namespace {
+
+// The cubes that a plane crosses are nearer than sqrt(3) / 2, and vertices that switched voxels on
+// may lie a little off the limit surface.
+constexpr float kReachOfSolid = 1.1F;
+// Where bodies meet, a voxel crossed by one of them may lie as deep as this in another.
+constexpr float kReachOfSolids = 2;
+constexpr double kDepthOfExposed = 1.7;  // voxels
+// Half a voxel more, for the cubes that a shell crosses.
+constexpr float kReachOfShell = 1.4F;
+
+Float3 difference(const Float3& a, const Float3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// Foot and normal of a place, from the origin of its cell.
+struct PlacedFoot {
+  openvdb::Coord origin;
+  Float3 foot, normal;
+};
+
+PlacedFoot placedFoot(const FootBins& bins, const FootPlace& at) {
+  if (at.cell->kind == CellKind::kTriangle) {
+    const TriangleCell& cell = bins.triangle(*at.cell);
+    const auto& [p, q, r] = cell.points;
+    Float3 foot;
+    for (std::size_t k = 0; k < 3; ++k)
+      foot[k] = p[k] + at.a * (q[k] - p[k]) + at.b * (r[k] - p[k]);
+    return {cell.prism.origin, foot, cell.normal};
+  }
+  const NewtonCell& cell = bins.newton(*at.cell);
+  const Jet jet(cell.surface, at.a, at.b);
+  return {cell.prism.origin, jet.s, jet.normal()};
+}
+
+/// Unit normal, of any sign, of the plane that stands for the surface near a voxel: the normal of
+/// the surface, or at edges and boundaries the direction from the foot to the voxel's centre.
+Vec3d planeNormal(const FootBins& bins, const FootPlace& at, const openvdb::Coord& voxel) {
+  const PlacedFoot placed = placedFoot(bins, at);
+  const openvdb::Coord step = voxel - placed.origin;
+  const Float3 away = difference(
+      {static_cast<float>(step[0]), static_cast<float>(step[1]), static_cast<float>(step[2])},
+      placed.foot);
+  const Vec3d toVoxel(away[0], away[1], away[2]);
+  const Vec3d normal =
+      Vec3d(placed.normal[0], placed.normal[1], placed.normal[2]).stableNormalized();
+  constexpr double kLeastDistance = 0.02;  // below, the direction of the foot is not precise
+  constexpr double kMostAside = 0.1;       // sine of the angle between both
+  const double distance = toVoxel.norm();
+  const double aside = normal.cross(toVoxel).norm();
+  const bool useNormal = distance < kLeastDistance || aside < kMostAside * distance;
+  if (useNormal && !normal.isZero(0)) return normal;
+  return distance > 0 ? Vec3d(toVoxel / distance) : Vec3d(0, 0, 1);
+}
+
+using VisitLeafFeet = std::function<void(const FootBins&, const openvdb::Coord&, const LeafFeet&)>;
+
+using FacesOfSurfaces = std::vector<std::vector<Index>>;
+
+/// Bodies in groups. Of a group no two meet, if there are not too many: so the bodies that meet at
+/// a voxel have a foot each.
+class BodyGroups {
+ public:
+  explicit BodyGroups(std::size_t surfaces) : surfaces_(surfaces) {}
+
+  void add(std::size_t surface, const PolygonMesh& mesh, const MeshComponent& body) {
+    constexpr std::size_t kMostGroups = 8;
+    constexpr std::size_t kMostBoxes = 1000;  // of a group
+    Box box;
+    for (const Index f : body.faces)
+      for (const Index v : mesh.face(f)) box.add(mesh.points[v]);
+    std::size_t g = 0;
+    while (g < groups_.size() && g + 1 < kMostGroups && meets(boxes_[g], box)) ++g;
+    if (g == groups_.size()) {
+      groups_.emplace_back(surfaces_);
+      boxes_.emplace_back();
+    }
+    if (boxes_[g].size() < kMostBoxes) boxes_[g].push_back(box);
+    auto& faces = groups_[g][surface];
+    const auto middle = static_cast<std::ptrdiff_t>(faces.size());
+    faces.insert(faces.end(), body.faces.begin(), body.faces.end());
+    std::inplace_merge(faces.begin(), faces.begin() + middle, faces.end());
+  }
+
+  const std::vector<FacesOfSurfaces>& faces() const { return groups_; }
+
+ private:
+  static bool meets(const std::vector<Box>& boxes, const Box& box) {
+    return std::any_of(boxes.begin(), boxes.end(), [&](const Box& other) {
+      return (box.low.array() <= other.high.array()).all() &&
+             (other.low.array() <= box.high.array()).all();
+    });
+  }
+
+  std::size_t surfaces_;
+  std::vector<FacesOfSurfaces> groups_;
+  std::vector<std::vector<Box>> boxes_;
+};
+
+using MaskLeaf = openvdb::MaskTree::LeafNodeType;
+
+/// The solid voxels at the place of a leaf, which may be a tile.
+class SolidLeaf {
+ public:
+  SolidLeaf(const openvdb::MaskTree& solid, const openvdb::Coord& origin)
+      : leaf_(solid.probeConstLeaf(origin)), tile_(leaf_ == nullptr && solid.isValueOn(origin)) {}
+  bool isOn(unsigned voxel) const { return leaf_ != nullptr ? leaf_->isValueOn(voxel) : tile_; }
+
+ private:
+  const MaskLeaf* leaf_;
+  bool tile_;
+};
+
+class SoftDensity {
+ public:
+  SoftDensity(const openvdb::MaskTree& mask, std::span<const PreparedSurface> surfaces, float value,
+              MemoryBudget& budget, Progress& progress)
+      : mask_(mask),
+        surfaces_(surfaces),
+        value_(value),
+        budget_(budget),
+        progress_(progress),
+        near_(mask) {
+    openvdb::tools::dilateActiveValues(near_, 1, openvdb::tools::NN_FACE_EDGE_VERTEX);
+  }
+
+  openvdb::FloatTree::Ptr shells() {
+    budget_.take(bytesOfFloats(near_), "the density grid", kScatteredAdvice);
+    tree_ = std::make_shared<openvdb::FloatTree>(near_, 0.0F, openvdb::TopologyCopy());
+    FacesOfSurfaces all;
+    for (const PreparedSurface& surface : surfaces_)
+      all.push_back(numbered(surface.base.mesh.faceCount()));
+    addShells(all, 1);
+    switchOffEmpty();
+    openvdb::tools::pruneInactive(*tree_);
+    return tree_;
+  }
+
+  openvdb::FloatTree::Ptr solid() {
+    budget_.require(bytesOfFilling(mask_), "the inside", kScatteredAdvice);
+    solid_ = solidOf(mask_, surfaces_, budget_, progress_);
+    BodyGroups groups(surfaces_.size());
+    FacesOfSurfaces sheets;
+    bool anySheet = false;
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+      BodiesAndSheets parts = bodiesAndSheets(surfaces_[i], {&mask_, solid_.get()}, progress_);
+      for (const MeshComponent& body : parts.bodies) groups.add(i, surfaces_[i].base.mesh, body);
+      anySheet |= !parts.sheets.empty();
+      sheets.push_back(std::move(parts.sheets));
+    }
+    makeSolidTree();
+    const double part = (anySheet ? 0.7 : 1) / static_cast<double>(groups.faces().size());
+    const float reach = groups.faces().size() > 1 ? kReachOfSolids : kReachOfSolid;
+    for (const FacesOfSurfaces& faces : groups.faces()) addBodies(faces, reach, part);
+    decideUnknown();
+    if (anySheet) addShells(sheets, 0.3);
+    switchOffEmpty();
+    openvdb::tools::prune(*tree_);
+    return tree_;
+  }
+
+ private:
+  /// `value` at solid voxels, but kUnknown near the surface; there `value` only at enclosed voxels.
+  void makeSolidTree() {
+    openvdb::MaskTree all(near_);
+    all.topologyUnion(*solid_);
+    budget_.take(bytesOfFloats(all), "the density grid", kScatteredAdvice);
+    tree_ = std::make_shared<openvdb::FloatTree>(*solid_, 0.0F, value_, openvdb::TopologyCopy());
+    tree_->topologyUnion(near_);
+    forEachLeafNear([&](const MaskLeaf& near, const MaskLeaf* mask, float* values) {
+      const openvdb::tree::ValueAccessor<const openvdb::MaskTree> solid(*solid_);
+      for (auto voxel = near.cbeginValueOn(); voxel; ++voxel) {
+        const bool crossed = mask != nullptr && mask->isValueOn(voxel.pos());
+        if (!crossed || !isEnclosed(solid, voxel.getCoord())) values[voxel.pos()] = kUnknown;
+      }
+    });
+  }
+
+  /// Voxels that no foot is near.
+  void decideUnknown() {
+    forEachLeafNear([&](const MaskLeaf& near, const MaskLeaf* mask, float* values) {
+      const SolidLeaf solid(*solid_, near.origin());
+      for (auto voxel = near.cbeginValueOn(); voxel; ++voxel) {
+        float& value = values[voxel.pos()];
+        const bool crossed = mask != nullptr && mask->isValueOn(voxel.pos());
+        if (value == kUnknown) value = !crossed && solid.isOn(voxel.pos()) ? value_ : 0;
+      }
+    });
+  }
+
+  /// Calls visit(leaf of near_, leaf of the mask or null, values).
+  template <class Visit>
+  void forEachLeafNear(Visit&& visit) {
+    std::vector<const MaskLeaf*> leaves;
+    std::as_const(near_).getNodes(leaves);
+    parallelForEach(leaves.size(), kLeavesPerTask, [&](std::size_t l) {
+      progress_.check();
+      const openvdb::Coord origin = leaves[l]->origin();
+      visit(*leaves[l], mask_.probeConstLeaf(origin), tree_->probeLeaf(origin)->buffer().data());
+    });
+  }
+
+  /// Whether all 26 neighbours are solid. Where a plane crosses voxels, each of them has a
+  /// neighbour beyond all these voxels; so the surface in an enclosed voxel has no outside.
+  template <class Accessor>
+  static bool isEnclosed(const Accessor& solid, const openvdb::Coord& voxel) {
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z)
+          if (!solid.isValueOn(voxel.offsetBy(x, y, z))) return false;
+    return true;
+  }
+
+  void addBodies(const FacesOfSurfaces& faces, float reach, double part) {
+    visitFeetOf(faces, reach, true, part,
+                [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& feet) {
+                  const MaskLeaf* mask = mask_.probeConstLeaf(origin);
+                  const SolidLeaf solid(*solid_, origin);
+                  auto* leaf = tree_->probeLeaf(origin);
+                  float* const values = leaf->buffer().data();
+                  feet.forEachFound([&](unsigned i) {
+                    double distance = double{feet.distance[i]};
+                    const bool crossed = mask != nullptr && mask->isValueOn(i);
+                    if (!crossed && std::abs(distance) >= kCertainSide)
+                      distance = std::copysign(distance, solid.isOn(i) ? -1.0 : 1.0);
+                    const Vec3d normal = planeNormal(bins, feet.place[i], globalOf(*leaf, i));
+                    values[i] = std::max(values[i], scaled(coverage(distance, normal)));
+                  });
+                });
+  }
+
+  void addShells(const FacesOfSurfaces& faces, double part) {
+    visitFeetOf(faces, kReachOfShell, false, part,
+                [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& feet) {
+                  auto* leaf = tree_->probeLeaf(origin);
+                  float* const values = leaf->buffer().data();
+                  feet.forEachFound([&](unsigned i) {
+                    const Vec3d normal = planeNormal(bins, feet.place[i], globalOf(*leaf, i));
+                    values[i] = std::max(values[i],
+                                         scaled(shellCoverage(double{feet.distance[i]}, normal)));
+                  });
+                });
+  }
+
+  /// Visits the feet, on some faces of each surface, of all voxels near the active ones.
+  /// @param onlyExposed  whether to leave out parts of surfaces within others
+  void visitFeetOf(const FacesOfSurfaces& faces, float reach, bool onlyExposed, double part,
+                   const VisitLeafFeet& visit) {
+    constexpr double kPartOfCells = 0.3;
+    FootCells cells({.reach = reach, .polynomials = false, .newtonStop = 0.02F});
+    for (std::size_t s = 0; s < surfaces_.size(); ++s)
+      if (!faces[s].empty())
+        addCells(surfaces_[s], faces[s], onlyExposed,
+                 kPartOfCells * part / static_cast<double>(surfaces_.size()), cells);
+    budget_.require(cells.bytes(), "the cells of the surface",
+                    "use larger voxels, or raise --max-memory");
+    const FootBins bins = cells.bins();
+    forEachFoot(
+        bins, near_, progress_, (1 - kPartOfCells) * part,
+        [&](const openvdb::Coord& origin, const LeafFeet& feet) { visit(bins, origin, feet); });
+  }
+
+  void addCells(const PreparedSurface& surface, const std::vector<Index>& faces, bool onlyExposed,
+                double part, FootCells& cells) const {
+    if (levelOf(surface.way))
+      return cells.addTriangles(trianglesOfLevel(surface, faces, budget_, progress_), 0, progress_);
+    PieceFilter filter;
+    if (onlyExposed)
+      filter = [this](LimitSink& next) {
+        return std::make_unique<ExposedPieces>(*solid_, kDepthOfExposed, next);
+      };
+    const bool all = faces.size() == surface.base.mesh.faceCount();
+    cells.addLimitSurface(surface, all ? std::vector<Index>{} : faces, {}, filter, progress_, part);
+  }
+
+  void switchOffEmpty() {
+    std::vector<openvdb::FloatTree::LeafNodeType*> leaves;
+    tree_->getNodes(leaves);
+    parallelForEach(leaves.size(), kLeavesPerTask, [&](std::size_t l) {
+      for (auto voxel = leaves[l]->beginValueOn(); voxel; ++voxel)
+        if (*voxel == 0) voxel.setValueOff();
+    });
+  }
+
+  float scaled(double part) const {
+    constexpr double kLeastPart = 1e-6;
+    return part < kLeastPart ? 0 : static_cast<float>(part * double{value_});
+  }
+  static openvdb::Coord globalOf(const openvdb::FloatTree::LeafNodeType& leaf, unsigned voxel) {
+    return leaf.offsetToGlobalCoord(voxel);
+  }
+
+  static constexpr std::size_t kLeavesPerTask = 64;
+  static constexpr float kUnknown = -1;
+  /// Within this distance, in voxels, the side of the closest point is that of the voxel.
+  static constexpr double kCertainSide = 0.5;
+
+  const openvdb::MaskTree& mask_;
+  std::span<const PreparedSurface> surfaces_;
+  float value_;
+  MemoryBudget& budget_;
+  Progress& progress_;
+  openvdb::MaskTree near_;  // the voxels that may have a soft value
+  openvdb::MaskTree::ConstPtr solid_;
+  openvdb::FloatTree::Ptr tree_;
+};
+
+}  // namespace
+
+openvdb::FloatGrid::Ptr softDensityGrid(const openvdb::MaskTree& mask,
+                                        std::span<const PreparedSurface> surfaces, Fill fill,
+                                        float value, MemoryBudget& budget, Progress& progress) {
+  SoftDensity density(mask, surfaces, value, budget, progress);
+  return densityGrid(fill == Fill::kSolid ? density.solid() : density.shells());
+}
+
+}  // namespace vox

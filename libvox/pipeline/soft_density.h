@@ -1,0 +1,28 @@
+#pragma once
+
+#include "libvox/grid/openvdb_fwd.h"
+#include "libvox/options/volume_options.h"
+#include "libvox/pipeline/prepared_surface.h"
+
+#include <memory>
+#include <span>
+
+namespace vox {
+
+class MemoryBudget;
+class Progress;
+
+/// The grid `density` with soft edges: `value` times the part of each voxel's cube that is inside
+/// (Fill::kSolid), or within half a voxel of a surface (Fill::kSurface, and sheets of kSolid). This
+/// part is that of the plane through the point of the surface closest to the voxel's centre. Voxels
+/// with the part 0 are inactive. What is inside is decided as in solidOf (inside.h), but within
+/// half a voxel of the surface by the side of the closest point.
+/// @param mask  active voxels of all surfaces, without tiles
+/// @throws LimitError
+/// @throws Cancelled
+std::shared_ptr<openvdb::FloatGrid> softDensityGrid(const openvdb::MaskTree& mask,
+                                                    std::span<const PreparedSurface> surfaces,
+                                                    Fill fill, float value, MemoryBudget& budget,
+                                                    Progress& progress);
+
+}  // namespace vox
