@@ -5,11 +5,13 @@
 #define HWY_TARGET_INCLUDE "libvox/foot/foot_fit.cpp"
 #include "libvox/foot/foot_fit.h"
 
-#include "libvox/foot/newton-inl.h"
-
 #include <Eigen/Cholesky>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+// clang-format off
+#include "libvox/foot/newton-inl.h"  // after foreach_target.h: once per instruction set
+// clang-format on
 
 #include <algorithm>
 #include <array>

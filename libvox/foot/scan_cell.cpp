@@ -5,10 +5,12 @@
 #define HWY_TARGET_INCLUDE "libvox/foot/scan_cell.cpp"
 #include "libvox/foot/scan_cell.h"
 
-#include "libvox/foot/newton-inl.h"
-
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+// clang-format off
+#include "libvox/foot/newton-inl.h"  // after foreach_target.h: once per instruction set
+// clang-format on
 
 #include <algorithm>
 #include <array>
