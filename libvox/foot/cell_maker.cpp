@@ -281,7 +281,7 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   cell.guess = shape.guess;
   cell.isCurve = piece_->boundarySides == kAllSides;
   cell.severalStarts = shape.badNormal || shape.sine > kMostSine;
-  cell.mostSteps = shape.badNormal ? 10 : 6;
+  cell.mostSteps = cell.severalStarts ? 16 : 6;
   // Small cells may be strongly curved: there a small step counts in parameters.
   constexpr float kMostStop = 0.05F;
   cell.stop = std::min(kMostStop, options_.newtonStop / std::max(shape.lengthA, shape.lengthB));
