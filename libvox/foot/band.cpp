@@ -75,6 +75,17 @@ LeafBits bitsOf(const openvdb::MaskTree& mask, const openvdb::Coord& origin) {
   return bits;
 }
 
+/// Whether all 26 neighbours are solid. Where a surface has the outside on one side, each voxel
+/// that it crosses has a neighbour outside; so a surface in an enclosed voxel lies within others.
+bool isEnclosed(const openvdb::tree::ValueAccessor<const openvdb::MaskTree>& solid,
+                const openvdb::Coord& voxel) {
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z)
+        if (!solid.isValueOn(voxel.offsetBy(x, y, z))) return false;
+  return true;
+}
+
 /// The smallest float that is not below a value. (OpenVDB refuses a band a little below 3 voxels as
 /// too narrow.)
 float notBelow(double value) {
@@ -174,6 +185,7 @@ class BandMaker {
       case CellKind::kPolynomial:
         return scanPolynomials(bins_.polynomial(cell), origin, options_.unsignedDistance, brick);
       case CellKind::kTriangle:
+      case CellKind::kRibbon:
         return scanFeet(bins_.triangle(cell), origin, nullptr, feet, keep);
     }
   }
@@ -250,11 +262,16 @@ class BandMaker {
     const LeafBits surface = bitsOf(*inside_.surface, origin);
     LeafSigns signs = {};
     signs.inside = bitsOf(*inside_.solid, origin);
+    const openvdb::tree::ValueAccessor<const openvdb::MaskTree> solid(*inside_.solid);
     for (unsigned x = 0; x < 8; ++x)
       for (unsigned bit = 0; bit < 64; ++bit) {
         const std::uint32_t key = keys[x << 6 | bit];
         const std::uint64_t one = std::uint64_t{1} << bit;
-        if ((surface[x] & one) != 0 && key < nearest && (key & 1U) == 0) signs.inside[x] &= ~one;
+        const bool maybeOutside = (surface[x] & one) != 0 && key < nearest && (key & 1U) == 0;
+        if (maybeOutside &&
+            !isEnclosed(solid, origin.offsetBy(static_cast<int>(x), static_cast<int>(bit >> 3),
+                                               static_cast<int>(bit & 7U))))
+          signs.inside[x] &= ~one;
         if (key < ((signs.inside[x] & one) != 0 ? mostIn_ : mostOut_)) signs.active[x] |= one;
       }
     return signs;

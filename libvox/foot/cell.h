@@ -54,9 +54,16 @@ struct TriangleCell {
   Float3 normal;                      ///< unit
   std::array<Float3, 3> edgeNormals;  ///< of the edge from point i to the next: sum of both faces'
   std::array<Float3, 3> vertexNormals;  ///< means of the faces', weighted by their angles
+  /// kRibbon: place of each point in the square of the corner that owns the cell.
+  std::array<std::array<float, 2>, 3> places = {};
 };
 
-enum class CellKind : std::uint8_t { kNewton, kPolynomial, kTriangle };
+enum class CellKind : std::uint8_t {
+  kNewton,
+  kPolynomial,
+  kTriangle,  ///< of a polygon mesh
+  kRibbon,    ///< a triangle of a sliver of the limit surface
+};
 
 /// A cell in a bin: a cube of 32^3 voxels, aligned, which one task scans.
 struct BinnedCell {
@@ -76,6 +83,11 @@ struct CellStore {
   std::vector<TriangleCell> triangles;
   std::vector<BinnedCell> binned;
   const std::vector<openvdb::Coord>* onlyBins = nullptr;  ///< if not null: the bins of interest
+
+  std::uint64_t bytes() const {
+    return newton.capacity() * sizeof(NewtonCell) + polynomial.capacity() * sizeof(PolynomialCell) +
+           triangles.capacity() * sizeof(TriangleCell) + binned.capacity() * sizeof(BinnedCell);
+  }
 
   /// Enters a cell in all bins of interest that its box meets.
   void bin(const Prism& prism, std::uint32_t group, std::uint32_t owner, std::size_t cell,

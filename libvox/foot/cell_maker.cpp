@@ -165,6 +165,8 @@ struct CellMaker::Shape {
 
 void CellMaker::piece(const LimitPiece& piece) {
   piece_ = &piece;
+  if (piece.boundarySides != kAllSides && ribbon_.set(piece))
+    return addRibbon(ribbon_, piece, options_.reach, group(), owner(), store_);
   const auto parts = [&](bool alongU) {
     return std::max(
         1, static_cast<int>(std::ceil(lengthAlongU(piece, alongU) / kLongestFlat - 1e-6F)));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/foot/cell.h"
+#include "libvox/foot/ribbon.h"
 
 #include <cstdint>
 #include <span>
@@ -42,6 +43,7 @@ class CellMaker : public LimitSink {
   std::span<const std::uint32_t> groups_;
   CellStore& store_;
   const LimitPiece* piece_ = nullptr;
+  Ribbon ribbon_;
 };
 
 }  // namespace vox

@@ -9,6 +9,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <memory>
@@ -74,7 +75,48 @@ struct FeetWork {
   Feet feet;
 };
 
+/// The normal of a triangle, of its edge or of its vertex, whichever the foot is on.
+const Float3& polygonNormal(const TriangleCell& cell, const std::array<float, 3>& weights) {
+  constexpr float kLeast = 1e-6F;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (weights[i] > 1 - kLeast) return cell.vertexNormals[i];
+  for (std::size_t i = 0; i < 3; ++i)
+    if (weights[(i + 2) % 3] < kLeast) return cell.edgeNormals[i];
+  return cell.normal;
+}
+
 }  // namespace
+
+Float3 normalAt(const FootBins& bins, const FootPlace& at) {
+  if (at.cell->kind == CellKind::kNewton) {
+    const Biquadratic& surface = bins.newton(*at.cell).surface;
+    const Float3 normal = Jet(surface, at.a, at.b).normal();
+    // At a corner where two sides are parallel, the surface near it has the normal.
+    constexpr float kNear = 0.9F;
+    if (dot(normal, normal) > 0) return normal;
+    return Jet(surface, kNear * at.a, kNear * at.b).normal();
+  }
+  const TriangleCell& cell = bins.triangle(*at.cell);
+  const std::array<float, 3> weights = {1 - at.a - at.b, at.a, at.b};
+  if (at.cell->kind == CellKind::kTriangle) return polygonNormal(cell, weights);
+  Float3 sum = {};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += weights[i] * cell.vertexNormals[i][k];
+  return sum;
+}
+
+SurfacePlace placeAt(const FootBins& bins, const FootPlace& at) {
+  std::array<float, 2> place = {};
+  if (at.cell->kind == CellKind::kNewton) {
+    const NewtonCell& cell = bins.newton(*at.cell);
+    place = {cell.u + cell.side[0] * at.a, cell.v + cell.side[1] * at.b};
+  } else {
+    const auto& places = bins.triangle(*at.cell).places;
+    for (std::size_t k = 0; k < 2; ++k)
+      place[k] = (1 - at.a - at.b) * places[0][k] + at.a * places[1][k] + at.b * places[2][k];
+  }
+  return {std::clamp(double{place[0]}, 0.0, 1.0), std::clamp(double{place[1]}, 0.0, 1.0)};
+}
 
 void forEachFoot(const FootBins& bins, const openvdb::MaskTree& voxels, Progress& progress,
                  double part,
@@ -94,7 +136,7 @@ void forEachFoot(const FootBins& bins, const openvdb::MaskTree& voxels, Progress
       const auto keep = [&](const Feet& feet) {
         work.nearest.keepNearest(feet, cell, isCurve ? kHandicapOfCurve : 0);
       };
-      if (cell.kind == CellKind::kTriangle)
+      if (cell.kind != CellKind::kNewton)
         scanFeet(bins.triangle(cell), origin, &work.nearest.wanted(), work.feet, keep);
       else
         scanFeet(bins.newton(cell), origin, &work.nearest.wanted(), work.feet, keep);

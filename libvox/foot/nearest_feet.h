@@ -34,6 +34,18 @@ struct LeafFeet {
   }
 };
 
+/// The outward normal at a foot, of any length; 0 where there is none. Of a polygon mesh: that of
+/// the face, or at its edges and vertices the mean of the faces'.
+Float3 normalAt(const FootBins& bins, const FootPlace& at);
+
+/// A place in the square of a corner (mesh/limit_piece.h).
+struct SurfacePlace {
+  double u, v;
+};
+/// The place of a foot on the limit surface, in the square of the corner that owns the cell.
+/// Precondition: the cell is no kTriangle.
+SurfacePlace placeAt(const FootBins& bins, const FootPlace& at);
+
 /// Calls visit(origin of the leaf, feet) for each leaf with voxels that have a foot within the
 /// reach of the cells; from any thread, once per leaf. Of equally near feet it is the one in the
 /// first cell of the bin, so the same for any number of threads.

@@ -4,6 +4,7 @@
 #include "libvox/foot/triangle_maker.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/foot/triangle_prism.h"
 
 #include <Eigen/Geometry>
 
@@ -16,10 +17,6 @@ namespace vox {
 namespace {
 
 constexpr float kMargin = 0.02F;  // voxels
-
-Float3 asFloats(const Vec3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
 
 /// A corner and its edge to the next one, by the ends of the edge.
 struct EdgeOfCorner {
@@ -84,9 +81,8 @@ void TriangleMaker::addTriangle(Index f, std::uint32_t owner, std::uint32_t grou
                                 CellStore& store) const {
   const auto face = mesh_.face(f);
   const auto& points = mesh_.points;
-  Prism prism;
-  for (int k = 0; k < 3; ++k) prism.origin[k] = static_cast<int>(std::lround(points[face[0]][k]));
-  const Vec3d origin(prism.origin.x(), prism.origin.y(), prism.origin.z());
+  const openvdb::Coord at = openvdb::Coord::round(openvdb::Vec3d(points[face[0]].data()));
+  const Vec3d origin(at.x(), at.y(), at.z());
   std::array<Vec3d, 3> p;
   double turn = 0;
   bool open = false;
@@ -99,33 +95,9 @@ void TriangleMaker::addTriangle(Index f, std::uint32_t owner, std::uint32_t grou
   }
   const double reach = double{reach_};
   const double beyond = (open ? 1.0 : turn) * reach + double{kMargin};
-  // A frame along the longest side.
-  std::size_t longest = 0;
-  for (std::size_t i = 1; i < 3; ++i)
-    if ((p[(i + 1) % 3] - p[i]).squaredNorm() > (p[(longest + 1) % 3] - p[longest]).squaredNorm())
-      longest = i;
   const Vec3d& n = normals_[f];
-  const Vec3d u = (p[(longest + 1) % 3] - p[longest]).normalized();
-  const std::array<Vec3d, 3> axes = {u, n.cross(u), n};
-  Vec3d centre = Vec3d::Zero();
-  for (std::size_t k = 0; k < 3; ++k) {
-    double low = axes[k].dot(p[0]);
-    double high = low;
-    for (std::size_t i = 1; i < 3; ++i) {
-      low = std::min(low, axes[k].dot(p[i]));
-      high = std::max(high, axes[k].dot(p[i]));
-    }
-    const double margin = k == 2 ? reach + double{kMargin} : beyond;
-    centre += (low + high) / 2 * axes[k];
-    prism.normals[k] = asFloats(axes[k] / ((high - low) / 2 + margin));
-  }
-  prism.centre = asFloats(centre);
-  for (int k = 0; k < 3; ++k) {
-    const double margin = beyond + (reach + double{kMargin}) * std::abs(n[k]);
-    const auto [low, high] = std::minmax({p[0][k], p[1][k], p[2][k]});
-    prism.box.min()[k] = prism.origin[k] + static_cast<int>(std::ceil(low - margin));
-    prism.box.max()[k] = prism.origin[k] + static_cast<int>(std::floor(high + margin));
-  }
+  const Prism prism =
+      prismAround(p, at, TriangleFrame(p, n), {beyond, beyond, reach + double{kMargin}});
   if (prism.box.empty()) return;
   TriangleCell& cell = store.triangles.emplace_back();
   cell.prism = prism;

@@ -88,11 +88,8 @@ void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
   const auto colorAt = [&](const FootBins& bins, const FootPlace& at) {
     if (at.cell->kind == CellKind::kTriangle)
       return colors.at(&feet.flat[0].corners[std::size_t{3} * at.cell->owner], at.a, at.b);
-    const NewtonCell& cell = bins.newton(*at.cell);
-    const auto place = [&](std::size_t k, float middle, float parameter) {
-      return std::clamp(double{middle} + double{cell.side[k]} * double{parameter}, 0.0, 1.0);
-    };
-    return colors.at(cell.owner, place(0, cell.u, at.a), place(1, cell.v, at.b));
+    const SurfacePlace place = placeAt(bins, at);
+    return colors.at(at.cell->owner, place.u, place.v);
   };
   visitFeet(feet, voxels, budget, progress, part,
             [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {

@@ -203,12 +203,11 @@ class LevelSetMaker {
     // reach of the surface around it.
     const double more = byVoxels ? kExposedDepth + 0.5 : 0;
     const double reach = std::max(options.in, options.out) + options.halfThickness + more;
-    FootCells cells({.reach = static_cast<float>(reach)});
+    FootCells cells({.reach = static_cast<float>(reach)}, budget_);
     const double shareOfCells = kPartOfCells * share / static_cast<double>(surfaces_.size());
     forEachSurface(parts, [&](std::span<const Part> ofSurface) {
       addCells(ofSurface, byVoxels, shareOfCells, cells);
     });
-    budget_.require(cells.bytes(), "the cells of the surface", kAdvice);
     return makeBand(cells.bins(), options, byVoxels ? inside_ : Inside{}, progress_,
                     (1 - kPartOfCells) * share);
   }

@@ -77,8 +77,8 @@ void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
   openvdb::MaskTree left(voxels);
   for (float reach = kFirstReach; reach <= kMostReach && !left.empty(); reach *= kMoreReach) {
     const CellOptions cellOptions{.reach = reach, .polynomials = false, .newtonStop = 0.02F};
-    FootCells cells(cellOptions,
-                    reach > kFirstReach ? binsOf(left) : std::vector<openvdb::Coord>{});
+    FootCells cells(cellOptions, reach > kFirstReach ? binsOf(left) : std::vector<openvdb::Coord>{},
+                    budget);
     for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {
       const FootSurfaces::Flat& flat = surfaces.flat[s];
       if (flat.triangles.faceCount() > 0)
@@ -87,8 +87,6 @@ void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
         cells.addLimitSurface(surfaces.surfaces[s], {}, {}, {}, progress,
                               kPartOfCells * part / static_cast<double>(surfaces.surfaces.size()));
     }
-    budget.require(cells.bytes(), "the cells of the surface",
-                   "use larger voxels, or raise --max-memory");
     const FootBins bins = cells.bins();
     forEachFoot(bins, left, progress, (1 - kPartOfCells) * part,
                 [&](const openvdb::Coord& origin, const LeafFeet& feet) {

@@ -3,6 +3,7 @@
 #include "libvox/pipeline/foot_cells.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/foot/triangle_maker.h"
@@ -19,14 +20,15 @@ namespace {
 
 /// What one thread needs to make cells of pieces.
 struct CellWalk {
+  CellStore& store;
   LimitWalk walk;
   CellMaker maker;
   std::unique_ptr<LimitSink> filter;
   std::vector<Index> faces;
 
   CellWalk(const SubdivisionLevel& base, const CellOptions& options, std::uint32_t firstOwner,
-           std::span<const std::uint32_t> groups, CellStore& store, const PieceFilter& makeFilter)
-      : walk(base), maker(options, firstOwner, groups, store) {
+           std::span<const std::uint32_t> groups, CellStore& cells, const PieceFilter& makeFilter)
+      : store(cells), walk(base), maker(options, firstOwner, groups, cells) {
     if (makeFilter) filter = makeFilter(maker);
   }
 
@@ -70,7 +72,9 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
   };
   runSubmeshes(cutIntoSubmeshes(surface.base, surface.options), progress, part, walkOfThread,
                [&](const std::unique_ptr<CellWalk>& walk, const SubmeshTask& task) {
+                 const std::uint64_t before = walk->store.bytes();
                  walk->emit(task.faces, faces);
+                 account(before, walk->store);
                });
 }
 
@@ -81,22 +85,20 @@ void FootCells::addTriangles(const PolygonMesh& triangles, std::uint32_t group,
   takeOwners(triangles.faceCount());
   const TriangleMaker maker(triangles, options_.reach);
   tbb::enumerable_thread_specific<CellStore*> stores([&] { return &newStore(); });
-  parallelForRanges(triangles.faceCount(), kTrianglesPerTask,
-                    [&](std::size_t begin, std::size_t end) {
-                      progress.check();
-                      maker.add(static_cast<Index>(begin), static_cast<Index>(end), firstOwner,
-                                group, *stores.local());
-                    });
+  parallelForRanges(
+      triangles.faceCount(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
+        progress.check();
+        CellStore& store = *stores.local();
+        const std::uint64_t before = store.bytes();
+        maker.add(static_cast<Index>(begin), static_cast<Index>(end), firstOwner, group, store);
+        account(before, store);
+      });
 }
 
-std::uint64_t FootCells::bytes() const {
-  std::uint64_t bytes = 0;
-  for (const CellStore& store : stores_)
-    bytes += store.newton.size() * sizeof(NewtonCell) +
-             store.polynomial.size() * sizeof(PolynomialCell) +
-             store.triangles.size() * sizeof(TriangleCell) +
-             2 * store.binned.size() * sizeof(BinnedCell);
-  return bytes;
+void FootCells::account(std::uint64_t before, const CellStore& store) {
+  bytes_ += store.bytes() - before;
+  budget_.require(2 * bytes_, "the cells of the surface",
+                  "use a smaller --band or larger voxels, or raise --max-memory");
 }
 
 FootBins FootCells::bins() const {

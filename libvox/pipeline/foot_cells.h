@@ -4,6 +4,7 @@
 #include "libvox/foot/foot_bins.h"
 #include "libvox/pipeline/prepared_surface.h"
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -15,6 +16,7 @@
 
 namespace vox {
 
+class MemoryBudget;
 class Progress;
 
 /// Wraps a sink of one thread, so that only some pieces, or parts of them, reach it.
@@ -23,10 +25,13 @@ using PieceFilter = std::function<std::unique_ptr<LimitSink>(LimitSink& cells)>;
 /// The cells of some surfaces (foot/cell.h).
 class FootCells {
  public:
-  explicit FootCells(const CellOptions& options) : options_(options) {}
+  /// @param budget  for the cells and their bins
+  FootCells(const CellOptions& options, const MemoryBudget& budget)
+      : options_(options), budget_(budget) {}
   /// @param onlyBins  bins of interest; empty: all
-  FootCells(const CellOptions& options, std::vector<openvdb::Coord> onlyBins)
-      : options_(options), onlyBins_(std::move(onlyBins)) {}
+  FootCells(const CellOptions& options, std::vector<openvdb::Coord> onlyBins,
+            const MemoryBudget& budget)
+      : options_(options), budget_(budget), onlyBins_(std::move(onlyBins)) {}
   FootCells(const FootCells&) = delete;
   FootCells& operator=(const FootCells&) = delete;
 
@@ -36,7 +41,8 @@ class FootCells {
   /// @param groups  of the corners (foot/cell.h); empty: all 0
   /// @param filter  may be empty
   /// @param part    the share of this in the current stage of `progress`
-  /// @throws LimitError  coordinates are out of range, or there are too many corners
+  /// @throws LimitError  coordinates are out of range, there are too many corners, or not enough
+  ///   memory
   /// @throws Cancelled
   void addLimitSurface(const PreparedSurface& surface, const std::vector<Index>& faces,
                        std::span<const std::uint32_t> groups, const PieceFilter& filter,
@@ -47,16 +53,17 @@ class FootCells {
 
   /// Owner of the first cell that will be added.
   std::uint32_t firstOwner() const { return firstOwner_; }
-  /// Bytes of the cells and of their bins.
-  std::uint64_t bytes() const;
   /// The cells sorted by bins. Valid as long as this object is not changed.
   FootBins bins() const;
 
  private:
   CellStore& newStore();
   void takeOwners(std::uint64_t count);
+  void account(std::uint64_t before, const CellStore& store);
 
   CellOptions options_;
+  const MemoryBudget& budget_;
+  std::atomic<std::uint64_t> bytes_{0};
   std::vector<openvdb::Coord> onlyBins_;
   std::uint32_t firstOwner_ = 0;
   std::deque<CellStore> stores_;

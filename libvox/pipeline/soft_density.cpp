@@ -48,17 +48,16 @@ struct PlacedFoot {
 };
 
 PlacedFoot placedFoot(const FootBins& bins, const FootPlace& at) {
-  if (at.cell->kind == CellKind::kTriangle) {
+  if (at.cell->kind != CellKind::kNewton) {
     const TriangleCell& cell = bins.triangle(*at.cell);
     const auto& [p, q, r] = cell.points;
     Float3 foot;
     for (std::size_t k = 0; k < 3; ++k)
       foot[k] = p[k] + at.a * (q[k] - p[k]) + at.b * (r[k] - p[k]);
-    return {cell.prism.origin, foot, cell.normal};
+    return {cell.prism.origin, foot, normalAt(bins, at)};
   }
   const NewtonCell& cell = bins.newton(*at.cell);
-  const Jet jet(cell.surface, at.a, at.b);
-  return {cell.prism.origin, jet.s, jet.normal()};
+  return {cell.prism.origin, Jet(cell.surface, at.a, at.b).s, normalAt(bins, at)};
 }
 
 /// Unit normal, of any sign, of the plane that stands for the surface near a voxel: the normal of
@@ -275,13 +274,11 @@ class SoftDensity {
   void visitFeetOf(const FacesOfSurfaces& faces, float reach, bool onlyExposed, double part,
                    const VisitLeafFeet& visit) {
     constexpr double kPartOfCells = 0.3;
-    FootCells cells({.reach = reach, .polynomials = false, .newtonStop = 0.02F});
+    FootCells cells({.reach = reach, .polynomials = false, .newtonStop = 0.02F}, budget_);
     for (std::size_t s = 0; s < surfaces_.size(); ++s)
       if (!faces[s].empty())
         addCells(surfaces_[s], faces[s], onlyExposed,
                  kPartOfCells * part / static_cast<double>(surfaces_.size()), cells);
-    budget_.require(cells.bytes(), "the cells of the surface",
-                    "use larger voxels, or raise --max-memory");
     const FootBins bins = cells.bins();
     forEachFoot(
         bins, near_, progress_, (1 - kPartOfCells) * part,
