@@ -289,10 +289,10 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   cell.stop = std::min(kMostStop, options_.newtonStop / std::max(shape.lengthA, shape.lengthB));
   const CornerSquare& square = piece_->square;
   cell.owner = owner();
-  cell.u = static_cast<float>(square.u + square.side * (part.u0 + part.u1) / 2);
-  cell.v = static_cast<float>(square.v + square.side * (part.v0 + part.v1) / 2);
-  cell.side = {static_cast<float>(square.side * (part.u1 - part.u0) / 2),
-               static_cast<float>(square.side * (part.v1 - part.v0) / 2)};
+  cell.u = static_cast<float>(square.u + square.sideU * (part.u0 + part.u1) / 2);
+  cell.v = static_cast<float>(square.v + square.sideV * (part.v0 + part.v1) / 2);
+  cell.side = {static_cast<float>(square.sideU * (part.u1 - part.u0) / 2),
+               static_cast<float>(square.sideV * (part.v1 - part.v0) / 2)};
   store_.bin(prism, group(), cell.owner, store_.newton.size() - 1, CellKind::kNewton);
 }
 

@@ -180,8 +180,8 @@ void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, std::
       cell.edgeNormals[i] = asFloats(corners[i]->normal + corners[(i + 1) % 3]->normal);
       cell.vertexNormals[i] = asFloats(corners[i]->normal);
       const CornerSquare& square = piece.square;
-      cell.places[i] = {static_cast<float>(square.u + square.side * corners[i]->u),
-                        static_cast<float>(square.v + square.side * corners[i]->v)};
+      cell.places[i] = {static_cast<float>(square.u + square.sideU * corners[i]->u),
+                        static_cast<float>(square.v + square.sideV * corners[i]->v)};
     }
     store.bin(prism, group, owner, store.triangles.size() - 1, CellKind::kRibbon);
   };

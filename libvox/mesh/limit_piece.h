@@ -7,23 +7,26 @@
 
 namespace vox {
 
-/// A square part of the unit square of a corner. The part of the limit surface that belongs to
+/// A rectangle in the unit square of a corner. The part of the limit surface that belongs to
 /// corner i of face f is a map of the unit square (u, v): (1, 1) is the limit point of f (its
 /// centroid), (0, 0) that of the vertex, (1, 0) and (0, 1) those of the edges from corner i to the
 /// next and from the previous corner to corner i. A piece with parameters (u', v') covers
-/// (u + side u', v + side v') of it.
+/// (u + sideU u', v + sideV v') of it.
 struct CornerSquare {
   Index corner = kNone;  ///< of the base mesh
   double u = 0, v = 0;
-  double side = 1;  ///< negative: turned by 180 degrees
+  double sideU = 1, sideV = 1;  ///< negative: turned by 180 degrees
 
-  /// The quarter with the parameters u' >= 1/2 if `highU`, else u' <= 1/2; v' likewise.
-  CornerSquare quarter(bool highU, bool highV) const {
-    const double half = side / 2;
-    return {corner, highU ? u + half : u, highV ? v + half : v, half};
+  /// The half with the parameters u' >= 1/2 if `high`, else u' <= 1/2.
+  CornerSquare halfAlongU(bool high) const {
+    return {corner, high ? u + sideU / 2 : u, v, sideU / 2, sideV};
   }
-  /// The same square with both parameters running the other way.
-  CornerSquare turned() const { return {corner, u + side, v + side, -side}; }
+  CornerSquare halfAlongV(bool high) const {
+    return {corner, u, high ? v + sideV / 2 : v, sideU, sideV / 2};
+  }
+  CornerSquare quarter(bool highU, bool highV) const { return halfAlongU(highU).halfAlongV(highV); }
+  /// The same rectangle with both parameters running the other way.
+  CornerSquare turned() const { return {corner, u + sideU, v + sideV, -sideU, -sideV}; }
 };
 
 /// Sides of a piece that lie on the boundary of the surface.

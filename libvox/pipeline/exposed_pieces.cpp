@@ -14,31 +14,26 @@ namespace {
 constexpr double kLongest = 6;   // voxels, of a piece that is looked at as a whole
 constexpr double kShortest = 1;  // voxels, of a piece that is cut
 
-/// Longest side of the box of the control points.
-double extentOf(const LimitPiece& piece) {
-  Vec3d low = piece.points[0][0];
-  Vec3d high = low;
-  for (const auto& row : piece.points)
-    for (const Vec3d& p : row) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-  return (high - low).maxCoeff();
+/// Longest differences of control points along u and along v.
+std::array<double, 2> extentsOf(const LimitPiece& piece) {
+  std::array<double, 2> extents = {0, 0};
+  const auto& p = piece.points;
+  for (std::size_t i = 0; i < 3; ++i) {
+    extents[0] = std::max(extents[0], (p[2][i] - p[0][i]).cwiseAbs().maxCoeff());
+    extents[1] = std::max(extents[1], (p[i][2] - p[i][0]).cwiseAbs().maxCoeff());
+  }
+  return extents;
 }
 
-/// The quarters of a piece.
-std::array<LimitPiece, 4> quartersOf(const LimitPiece& piece) {
-  const auto children = childrenOf(Patch{piece.points});
-  std::array<LimitPiece, 4> quarters;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const bool highU = i >= 2;
-    const bool highV = i % 2 == 1;
-    const unsigned inner = (highU ? kSideU0 : kSideU1) | (highV ? kSideV0 : kSideV1);
-    quarters[i] = {children[highU ? 1 : 0][highV ? 1 : 0].points,
-                   static_cast<std::uint8_t>(piece.boundarySides & ~inner),
-                   piece.square.quarter(highU, highV)};
-  }
-  return quarters;
+LimitPiece halfOf(const LimitPiece& piece, bool alongU, bool high) {
+  Patch patch{piece.points};
+  if (!alongU) patch = quarterTurn(patch);
+  patch = halvesAlongU(patch)[high == alongU ? 1 : 0];  // turned, u runs against the old v
+  if (!alongU)
+    for (int turns = 0; turns < 3; ++turns) patch = quarterTurn(patch);
+  const unsigned inner = alongU ? (high ? kSideU0 : kSideU1) : (high ? kSideV0 : kSideV1);
+  return {patch.points, static_cast<std::uint8_t>(piece.boundarySides & ~inner),
+          alongU ? piece.square.halfAlongU(high) : piece.square.halfAlongV(high)};
 }
 
 }  // namespace
@@ -68,9 +63,10 @@ bool ExposedPieces::isExposed(const LimitPiece& piece, double u, double v) const
 }
 
 void ExposedPieces::piece(const LimitPiece& piece) {
-  const double extent = extentOf(piece);
+  const auto [extentU, extentV] = extentsOf(piece);
+  const double extent = std::max(extentU, extentV);
   const auto cut = [&] {
-    for (const LimitPiece& quarter : quartersOf(piece)) this->piece(quarter);
+    for (const bool high : {false, true}) this->piece(halfOf(piece, extentU >= extentV, high));
   };
   if (extent > kLongest) return cut();
   if (extent <= kShortest) {
