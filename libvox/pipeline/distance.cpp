@@ -5,6 +5,7 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/foot/band.h"
+#include "libvox/foot/wide_band.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/exposed_pieces.h"
@@ -135,12 +136,18 @@ class LevelSetMaker {
       else
         tree = sheets;
     }
+    if (settings_.band > kMostExact) tree = widened(tree, kMostExact, settings_.band, voxelSize_);
     return tree;
   }
 
   bool hasSheets() const { return !open_.empty(); }
 
  private:
+  /// Beyond this distance, in voxels, cells that are small or curved take too long: their tubes
+  /// spread.
+  static constexpr double kMostExact = 20;
+  double exactBand() const { return std::min(settings_.band, kMostExact); }
+
   /// How far inside others a surface still counts: the voxels tell less well where surfaces are
   /// near each other; then the united distances of the parts are right. A part that overlaps itself
   /// has no such distances.
@@ -175,7 +182,7 @@ class LevelSetMaker {
   openvdb::FloatTree::Ptr bandOfSolids() {
     setGroups(closed_);
     constexpr double kFirst = 0.9;  // share of the stage
-    const BandOptions options{settings_.band, settings_.band, voxelSize_};
+    const BandOptions options{exactBand(), exactBand(), voxelSize_};
     const bool overlap =
         mayMeet(closed_) || std::any_of(closed_.begin(), closed_.end(), facesInward);
     if (!overlap && inside_.solid == nullptr) {
@@ -189,7 +196,7 @@ class LevelSetMaker {
   openvdb::FloatTree::Ptr bandOfSheets() {
     constexpr double kHalfThickness = 0.5;
     const double half = settings_.openMesh == OpenMesh::kUnsigned ? 0 : kHalfThickness;
-    return bandOf(open_, {settings_.band, settings_.band, voxelSize_, true, half}, false,
+    return bandOf(open_, {exactBand(), exactBand(), voxelSize_, true, half}, false,
                   closed_.empty() ? 1 : 0.1)
         .tree;
   }
