@@ -86,14 +86,6 @@ bool isEnclosed(const openvdb::tree::ValueAccessor<const openvdb::MaskTree>& sol
   return true;
 }
 
-/// The smallest float that is not below a value. (OpenVDB refuses a band a little below 3 voxels as
-/// too narrow.)
-float notBelow(double value) {
-  const auto nearest = static_cast<float>(value);
-  return double{nearest} < value ? std::nextafter(nearest, std::numeric_limits<float>::max())
-                                 : nearest;
-}
-
 class BandMaker {
  public:
   BandMaker(const FootBins& bins, const BandOptions& options, const Inside& inside)

@@ -3,7 +3,9 @@
 #include "libvox/foot/foot_bins.h"
 #include "libvox/grid/openvdb_fwd.h"
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 namespace vox {
@@ -24,6 +26,14 @@ struct Inside {
   const openvdb::MaskTree* surface = nullptr;  ///< voxels that a surface crosses
   const openvdb::MaskTree* solid = nullptr;    ///< these, and what they enclose
 };
+
+/// The smallest float that is not below a value. (OpenVDB refuses a band a little below 3 voxels as
+/// too narrow.)
+inline float notBelow(double value) {
+  const auto nearest = static_cast<float>(value);
+  return double{nearest} < value ? std::nextafter(nearest, std::numeric_limits<float>::max())
+                                 : nearest;
+}
 
 /// A narrow band of distances.
 struct Band {

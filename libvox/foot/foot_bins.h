@@ -3,6 +3,7 @@
 #include "libvox/foot/cell.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,13 @@ class FootBins {
   openvdb::Coord originOf(std::size_t bin) const { return cells_[begin_[bin]].bin << kBinLog2; }
   std::span<const BinnedCell> cellsOf(std::size_t bin) const {
     return std::span(cells_).subspan(begin_[bin], begin_[bin + 1] - begin_[bin]);
+  }
+  /// A number for each cell of each bin.
+  std::int32_t indexOf(const BinnedCell& cell) const {
+    return static_cast<std::int32_t>(&cell - cells_.data());
+  }
+  const BinnedCell& cell(std::int32_t index) const {
+    return cells_[static_cast<std::size_t>(index)];
   }
   const NewtonCell& newton(const BinnedCell& cell) const {
     return stores_[cell.store]->newton[cell.cell];

@@ -1,18 +1,29 @@
 #pragma once
 
+#include "libvox/foot/band.h"
+#include "libvox/foot/foot_bins.h"
 #include "libvox/grid/openvdb_fwd.h"
-
-#include <memory>
 
 namespace vox {
 
-/// A band of distances made wider: farther distances follow from those that are there by the fast
-/// sweeping method (OpenVDB's dilateSdf). They are not exact: from 20 to 40 voxels the error was at
-/// most 0.4 voxels (rms 0.09), from 20 to 100 voxels 0.9 (rms 0.34).
-/// @param narrow  half width `from` voxels on both sides
-/// @param to      half width of the result in voxels, at least `from`
-/// @param voxelSize  world units
-std::shared_ptr<openvdb::FloatTree> widened(const std::shared_ptr<openvdb::FloatTree>& narrow,
-                                            double from, double to, double voxelSize);
+class Progress;
+
+/// Makes a band of distances wider, voxel by voxel in the order of distance. The candidates for the
+/// nearest cell of a voxel are those of its neighbours, because feet hardly move from a voxel to
+/// the next one. That takes the same time for every voxel, while the tubes of cells spread with the
+/// distance.
+///
+/// Distances are those to real points of the surface, and nearly always to the nearest.
+///
+/// @param band   the band of makeBand with the half width `exact`, or parts of it that are united
+/// @param exact  voxels, at least 3
+/// @param bins   cells of the same surfaces with a reach of at least `exact` and half the
+/// thickness,
+///   without polynomial cells
+/// @param options  of the result
+/// Parallel; the same bits for any number of threads.
+/// @throws Cancelled
+void widen(openvdb::FloatTree& band, double exact, const FootBins& bins, const BandOptions& options,
+           Progress& progress);
 
 }  // namespace vox

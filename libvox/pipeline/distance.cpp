@@ -136,17 +136,14 @@ class LevelSetMaker {
       else
         tree = sheets;
     }
-    if (settings_.band > kMostExact) tree = widened(tree, kMostExact, settings_.band, voxelSize_);
     return tree;
   }
 
   bool hasSheets() const { return !open_.empty(); }
 
  private:
-  /// Beyond this distance, in voxels, cells that are small or curved take too long: their tubes
-  /// spread.
-  static constexpr double kMostExact = 20;
-  double exactBand() const { return std::min(settings_.band, kMostExact); }
+  /// Half width up to which all cells scan their tubes. Beyond it tubes spread too much.
+  static constexpr double kMostExact = 8;  // voxels
 
   /// How far inside others a surface still counts: the voxels tell less well where surfaces are
   /// near each other; then the united distances of the parts are right. A part that overlaps itself
@@ -182,45 +179,74 @@ class LevelSetMaker {
   openvdb::FloatTree::Ptr bandOfSolids() {
     setGroups(closed_);
     constexpr double kFirst = 0.9;  // share of the stage
-    const BandOptions options{exactBand(), exactBand(), voxelSize_};
+    const BandOptions options{settings_.band, settings_.band, voxelSize_};
     const bool overlap =
         mayMeet(closed_) || std::any_of(closed_.begin(), closed_.end(), facesInward);
     if (!overlap && inside_.solid == nullptr) {
-      Band band = bandOf(closed_, options, false, kFirst);
-      if (band.jumps == 0) return band.tree;
+      const Band band = bandOf(closed_, options, false, kFirst);
+      if (band.jumps == 0) return widened(band, closed_, options, false);
     }
     findInside();
-    return bandOf(closed_, options, true, overlap || !open_.empty() ? kFirst : 1 - kFirst).tree;
+    const double share = overlap || !open_.empty() ? kFirst : 1 - kFirst;
+    return widened(bandOf(closed_, options, true, share), closed_, options, true);
   }
 
   openvdb::FloatTree::Ptr bandOfSheets() {
     constexpr double kHalfThickness = 0.5;
     const double half = settings_.openMesh == OpenMesh::kUnsigned ? 0 : kHalfThickness;
-    return bandOf(open_, {exactBand(), exactBand(), voxelSize_, true, half}, false,
-                  closed_.empty() ? 1 : 0.1)
-        .tree;
+    const BandOptions options{settings_.band, settings_.band, voxelSize_, true, half};
+    const double share = closed_.empty() ? 1 : 0.1;
+    return widened(bandOf(open_, options, false, share), open_, options, false);
   }
 
+  /// The options of the part of a band that makeBand makes.
+  static BandOptions narrowed(BandOptions options) {
+    options.in = std::min(options.in, kMostExact);
+    options.out = std::min(options.out, kMostExact);
+    return options;
+  }
+
+  /// The band, at most kMostExact wide.
   /// @param byVoxels  whether voxels decide what is inside
   /// @param share     of the stage
   Band bandOf(const std::vector<Part>& parts, const BandOptions& options, bool byVoxels,
               double share) {
     constexpr double kPartOfCells = 0.3;
-    // Where parts overlap, a surface that is not passed on by ExposedPieces must lie within the
-    // reach of the surface around it.
-    const double more = byVoxels ? kExposedDepth + 0.5 : 0;
-    const double reach = std::max(options.in, options.out) + options.halfThickness + more;
-    FootCells cells({.reach = static_cast<float>(reach)}, budget_);
-    const double shareOfCells = kPartOfCells * share / static_cast<double>(surfaces_.size());
-    forEachSurface(parts, [&](std::span<const Part> ofSurface) {
-      addCells(ofSurface, byVoxels, shareOfCells, cells);
-    });
-    return makeBand(cells.bins(), options, byVoxels ? inside_ : Inside{}, progress_,
+    const BandOptions narrow = narrowed(options);
+    FootCells cells({.reach = reachOf(narrow, byVoxels)}, budget_);
+    addCells(parts, byVoxels, kPartOfCells * share, cells);
+    return makeBand(cells.bins(), narrow, byVoxels ? inside_ : Inside{}, progress_,
                     (1 - kPartOfCells) * share);
   }
 
+  /// The band in its whole width.
+  openvdb::FloatTree::Ptr widened(const Band& band, const std::vector<Part>& parts,
+                                  const BandOptions& options, bool byVoxels) {
+    const BandOptions narrow = narrowed(options);
+    if (narrow.in == options.in && narrow.out == options.out) return band.tree;
+    FootCells cells({.reach = reachOf(narrow, byVoxels), .polynomials = false}, budget_);
+    addCells(parts, byVoxels, 0, cells);
+    widen(*band.tree, kMostExact, cells.bins(), options, progress_);
+    return band.tree;
+  }
+
+  /// Where parts overlap, a surface that is not passed on by ExposedPieces must lie within the
+  /// reach of the surface around it.
+  static float reachOf(const BandOptions& options, bool byVoxels) {
+    const double more = byVoxels ? kExposedDepth + 0.5 : 0;
+    return static_cast<float>(std::max(options.in, options.out) + options.halfThickness + more);
+  }
+
+  void addCells(const std::vector<Part>& parts, bool byVoxels, double share, FootCells& cells) {
+    const double shareOfSurface = share / static_cast<double>(surfaces_.size());
+    forEachSurface(parts, [&](std::span<const Part> ofSurface) {
+      addCellsOfSurface(ofSurface, byVoxels, shareOfSurface, cells);
+    });
+  }
+
   /// @param parts  of one surface
-  void addCells(std::span<const Part> parts, bool byVoxels, double share, FootCells& cells) const {
+  void addCellsOfSurface(std::span<const Part> parts, bool byVoxels, double share,
+                         FootCells& cells) const {
     const PreparedSurface& surface = surfaces_[parts[0].surface];
     if (levelOf(surface.way)) {
       for (const Part& part : parts)
