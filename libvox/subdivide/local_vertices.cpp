@@ -7,59 +7,6 @@
 namespace vox {
 
 void LocalVertices::set(std::span<const Index> faces) {
-  keepsLevels_ = false;
-  load(faces);
-}
-
-void LocalVertices::setWithNeighbours(std::span<const Index> faces) {
-  const SubdivisionLevel& base = images_.base();
-  isLoaded_.resize(base.mesh.faceCount());
-  isVisited_.resize(base.mesh.pointCount());
-  std::swap(loaded_, loadedBefore_);  // images_ still refers to the old list
-  loaded_.clear();
-  for (const Index f : faces) addNeighbour(f);
-  for (const Index f : faces)
-    for (Index c = base.mesh.faceOffsets[f]; c < base.mesh.faceOffsets[f + 1]; ++c)
-      if (const Index twin = base.adjacency.twin[c]; twin != kNone)
-        addNeighbour(base.adjacency.cornerFace[twin]);
-  addFansFrom(faces);
-  for (const Index f : loaded_) isLoaded_[f] = false;
-
-  keepsLevels_ = true;
-  load(loaded_);
-  levelsAt_.assign(images_.ownSlots(), kNone);
-  opened_ = 0;
-}
-
-void LocalVertices::addNeighbour(Index face) {
-  if (isLoaded_[face]) return;
-  isLoaded_[face] = true;
-  loaded_.push_back(face);
-}
-
-/// Adds all faces of the fans whose first corner (as in LocalImages) is in one of these faces.
-void LocalVertices::addFansFrom(std::span<const Index> faces) {
-  constexpr std::uint8_t kOwn = 2;
-  const SubdivisionLevel& base = images_.base();
-  for (const Index f : faces) isLoaded_[f] = kOwn;
-  const auto forCorners = [&](auto&& visit) {
-    for (const Index f : faces)
-      for (Index c = base.mesh.faceOffsets[f]; c < base.mesh.faceOffsets[f + 1]; ++c) visit(c);
-  };
-  forCorners([&](Index c) {
-    std::uint8_t& visited = isVisited_[base.mesh.faceVertices[c]];
-    if (visited) return;
-    visited = true;
-    const OneRing ring = oneRing(base.mesh, base.adjacency, c);
-    const Index first = ring.closed ? *std::min_element(ring.corners.begin(), ring.corners.end())
-                                    : ring.corners.front();
-    if (isLoaded_[base.adjacency.cornerFace[first]] != kOwn) return;
-    for (const Index corner : ring.corners) addNeighbour(base.adjacency.cornerFace[corner]);
-  });
-  forCorners([&](Index c) { isVisited_[base.mesh.faceVertices[c]] = false; });
-}
-
-void LocalVertices::load(std::span<const Index> faces) {
   images_.set(faces);
   openFace_ = shapedFace_ = kNone;
   second_.resize(images_.ownSlots());
@@ -122,21 +69,6 @@ void LocalVertices::surroundVFaces(std::vector<ExtraordinaryFace>& faces) const 
   }
 }
 
-Patch LocalVertices::patchAt(const Corner& c) const {
-  const LocalImages::VFace& vFace = images_.vFace(c.slot());
-  const LocalImages::EdgeFace& right = images_.edgeFace(c.slot());
-  const LocalImages::EdgeFace& left = images_.edgeFace(c.previous().slot());
-  const bool k = hasVFace(c.slot());
-  const Vec3d& center = images_.image(c.slot());
-  const Vec3d& beyond =
-      k ? images_.vFacePoints()[vFace.begin + (images_.placeInVFace(c.slot()) ^ 2U)] : center;
-  const unsigned quadrants = (k ? 1U : 0U) | (left.exists ? 2U : 0U) | (right.exists ? 4U : 0U);
-  return {{{{beyond, left.far, left.near},
-            {right.near, center, images_.image(c.previous().slot())},
-            {right.far, images_.image(c.next().slot()), images_.image(c.first + (c.place ^ 2U))}}},
-          static_cast<std::uint8_t>(quadrants | 8U)};
-}
-
 /// Sets the part of a vertex that depends on its V-face.
 void LocalVertices::splitVFace(const LocalImages::VFace& vFace, Index number, Index place,
                                LevelOneVertex& vertex) {
@@ -146,14 +78,7 @@ void LocalVertices::splitVFace(const LocalImages::VFace& vFace, Index number, In
   if (vFace.size == 1) {
     const TriangleImages t(vertex.at, vFace.mStart, vFace.mEnd);
     t.setVFace(split);
-    vertex.corner = {split.vFace0,
-                     t.mStart,
-                     t.mEnd,
-                     split.r[0],
-                     middle(split.r[0], split.r[3]),
-                     split.l[0],
-                     middle(split.l[0], split.l[3]),
-                     split.f0};
+    vertex.corner = t.below(split);
     return;
   }
   split.vFace0 = vFaceSecond_[vFace.begin + place];
@@ -168,22 +93,10 @@ void LocalVertices::splitVFace(const LocalImages::VFace& vFace, Index number, In
   }
 }
 
-/// The levels of a face that is not a quad.
-ExtraordinaryLevels& LocalVertices::levelsOf(const Corner& at) {
-  if (!keepsLevels_) {
-    if (openFace_ != at.first) openFace(at, faceLevels_.front());
-    openFace_ = at.first;
-    return faceLevels_.front();
-  }
-  Index& number = levelsAt_[at.first];
-  if (number != kNone) return faceLevels_[number];
-  number = static_cast<Index>(opened_++);
-  if (faceLevels_.size() < opened_) faceLevels_.emplace_back();
-  openFace(at, faceLevels_[number]);
-  return faceLevels_[number];
-}
-
-void LocalVertices::openFace(const Corner& at, ExtraordinaryLevels& levels) {
+/// Sets faceLevels_ to the levels of the face of a corner. Precondition: the face is not a quad.
+void LocalVertices::openFace(const Corner& at) {
+  if (openFace_ == at.first) return;
+  openFace_ = at.first;
   ExtraordinaryFace face;
   face.reset(at.size);
   Corner c{at.first, 0, at.size, at.number - at.place};
@@ -197,13 +110,13 @@ void LocalVertices::openFace(const Corner& at, ExtraordinaryLevels& levels) {
     face.far[i] = r[1];
     face.hasEdge[i] = right.exists;
     face.hasCorner[i] =
-        right.exists && images_.edgeFace(c.previous().slot()).exists && hasVFace(c.slot());
+        right.exists && images_.edgeFace(c.previous().slot()).exists && images_.hasVFace(c.slot());
     if (face.hasCorner[i])
       face.corner[i] = vFace.size == 1
                            ? TriangleImages(images_.image(c.slot()), vFace.mStart, vFace.mEnd).u
                            : vFaceSecond_[vFace.begin + images_.placeInVFace(c.slot())];
   }
-  levels.start(std::move(face));
+  faceLevels_.start(std::move(face));
 }
 
 LevelOneVertex LocalVertices::at(const Corner& c) {
@@ -212,25 +125,16 @@ LevelOneVertex LocalVertices::at(const Corner& c) {
   const LocalImages::VFace& vFace = images_.vFace(c.slot());
   vertex.regular = c.size == 4 && sizeOfVFace(vFace) == 4;
   if (vertex.regular) {
-    vertex.patch = patchAt(c);
+    vertex.patch = images_.patchAt({c.first, c.place, c.size});
     return vertex;
   }
-  const LocalImages::EdgeFace& right = images_.edgeFace(c.slot());
-  const LocalImages::EdgeFace& left = images_.edgeFace(c.previous().slot());
-  VertexSplit& split = vertex.split;
-  split.f0 = second_[c.slot()];
-  split.fNext = second_[c.next().slot()];
-  split.fPrevious = second_[c.previous().slot()];
-  split.r = quadImages(vertex.at, images_.image(c.next().slot()), right.far, right.near);
-  split.l = quadImages(vertex.at, images_.image(c.previous().slot()), left.near, left.far);
-  split.hasR = right.exists;
-  split.hasL = left.exists;
+  vertex.split =
+      images_.splitAt({c.first, c.place, c.size}, std::span(second_).subspan(c.first, c.size));
   splitVFace(vFace, images_.vFaceNumber(c.slot()), images_.placeInVFace(c.slot()), vertex);
   vertex.quadF = c.size == 4;
-  if (vertex.quadF) {
-    split.fOpposite = second_[c.first + (c.place ^ 2U)];
-  } else {
-    vertex.levelsOfF = &levelsOf(c);
+  if (!vertex.quadF) {
+    openFace(c);
+    vertex.levelsOfF = &faceLevels_;
     vertex.placeInF = c.place;
   }
   return vertex;
@@ -327,7 +231,7 @@ VertexFaces LocalVertices::facesAt(const Corner& c) {
   faces.l = {faces.at, faces.previous, left.near, left.far};
   faces.hasR = right.exists;
   faces.hasL = left.exists;
-  faces.hasVFace = hasVFace(c.slot());
+  faces.hasVFace = images_.hasVFace(c.slot());
   if (!faces.hasR) faces.right = faces.at;
   if (!faces.hasL) faces.left = faces.at;
   if (faces.hasVFace) {
