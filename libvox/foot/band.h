@@ -44,6 +44,10 @@ struct Band {
 Band makeBand(const FootBins& bins, const BandOptions& options, const Inside& inside,
               Progress& progress, double part);
 
+/// The value of inactive voxels, without the sign: the smallest float that is not below the width.
+/// @param width  voxels
+float backgroundOf(double width, double voxelSize);
+
 /// Estimate of the bytes of a band.
 /// @param area  of the surface, in square voxels
 double bytesOfBand(double area, double in, double out);

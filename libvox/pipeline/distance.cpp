@@ -15,6 +15,7 @@
 #include "libvox/pipeline/sheets.h"
 #include "libvox/volume/fill.h"
 
+#include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/Composite.h>
 
 #include <algorithm>
@@ -132,12 +133,12 @@ class LevelSetMaker {
     if (!open_.empty()) {
       const openvdb::FloatTree::Ptr sheets = bandOfSheets();
       if (tree)
-        openvdb::tools::csgUnion(*tree, *sheets);
+        unite(*tree, *sheets);
       else
         tree = sheets;
     }
-    if (settings_.band > kMostExact) tree = widened(tree, kMostExact, settings_.band, voxelSize_);
-    return tree;
+    if (settings_.band == exactBand()) return tree;
+    return widened(std::move(tree), exactBand(), settings_.band, voxelSize_);
   }
 
   bool hasSheets() const { return !open_.empty(); }
@@ -146,7 +147,19 @@ class LevelSetMaker {
   /// Beyond this distance, in voxels, cells that are small or curved take too long: their tubes
   /// spread.
   static constexpr double kMostExact = 20;
-  double exactBand() const { return std::min(settings_.band, kMostExact); }
+  BandWidths exactBand() const {
+    return {std::min(settings_.band.in, kMostExact), std::min(settings_.band.out, kMostExact)};
+  }
+
+  /// Adds sheets to solids.
+  void unite(openvdb::FloatTree& solids, openvdb::FloatTree& sheets) const {
+    openvdb::tools::csgUnion(solids, sheets);
+    // It leaves tiles inside with the background of the outside.
+    if (!settings_.band.isSymmetric())
+      openvdb::tools::changeAsymmetricLevelSetBackground(solids,
+                                                         backgroundOf(exactBand().out, voxelSize_),
+                                                         -backgroundOf(exactBand().in, voxelSize_));
+  }
 
   /// How far inside others a surface still counts: the voxels tell less well where surfaces are
   /// near each other; then the united distances of the parts are right. A part that overlaps itself
@@ -182,7 +195,7 @@ class LevelSetMaker {
   openvdb::FloatTree::Ptr bandOfSolids() {
     setGroups(closed_);
     constexpr double kFirst = 0.9;  // share of the stage
-    const BandOptions options{exactBand(), exactBand(), voxelSize_};
+    const BandOptions options{exactBand().in, exactBand().out, voxelSize_};
     const bool overlap =
         mayMeet(closed_) || std::any_of(closed_.begin(), closed_.end(), facesInward);
     if (!overlap && inside_.solid == nullptr) {
@@ -196,9 +209,8 @@ class LevelSetMaker {
   openvdb::FloatTree::Ptr bandOfSheets() {
     constexpr double kHalfThickness = 0.5;
     const double half = settings_.openMesh == OpenMesh::kUnsigned ? 0 : kHalfThickness;
-    return bandOf(open_, {exactBand(), exactBand(), voxelSize_, true, half}, false,
-                  closed_.empty() ? 1 : 0.1)
-        .tree;
+    const double out = exactBand().out;  // no voxel is deeper than half the thickness
+    return bandOf(open_, {out, out, voxelSize_, true, half}, false, closed_.empty() ? 1 : 0.1).tree;
   }
 
   /// @param byVoxels  whether voxels decide what is inside
