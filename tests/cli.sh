@@ -332,6 +332,23 @@ expect 0 'active voxels' convert level.toml -o level.vdb --dim 32
 "$vox" info level.vdb | grep -q 'grid surface: .*level set' || fail "no level set"
 expect 0 'active voxels' convert level.toml -o level.vdb --dim 32 --grids surface,density,mask --band 3 --force
 expect 2 'the band must lie between 1 and 1000, not 0.2' convert good.obj -o out.vdb --band 0.2 --grids surface
+expect 2 'the band must lie between 1 and 1000, not 0$' convert good.obj -o out.vdb --band 0
+expect 2 'the band must lie between 1 and 1000, not 2000' convert good.obj -o out.vdb --band 2000
+expect 2 'the band must lie between 1 and 1000, not 2000' convert good.obj -o out.vdb --band 3,2000
+for wrong in a 1,2,3 1, ,1; do
+  expect 2 "--band must be a number of voxels, or two with a comma .*, not '$wrong'" convert good.obj -o out.vdb --band "$wrong"
+  [ "$(wc -l <stderr)" = 1 ] || fail "more than a line: $(cat stderr)"
+done
+expect 0 'active voxels' convert "$scenes/cube.toml" -o widths.vdb --dim 32 --grids surface --band 3.5,5 --report widths.json
+python3 -c 'import json, sys; sys.exit(json.load(open("widths.json"))["options"]["band"] != [3.5, 5])' ||
+  fail "band in the report: $(cat widths.json)"
+"$vox" info widths.vdb | grep -q 'band=3.5,5' || fail "no band in the metadata"
+expect 0 'no faults' check widths.vdb --ignore no-density
+printf '[convert]\ngrids = ["surface"]\nband = [2, 5]\n[[object]]\n%s\n' "$cube" >widths.toml
+expect 0 'active voxels' convert widths.toml -o widths2.vdb --dim 32
+expect 0 'no faults' check widths2.vdb --ignore no-density
+expect 0 '' convert level.toml -o level.vdb --dim 32 --tolerance 0.3 --force
+[ "$(grep -c 'warning: tolerance has no effect any more: distances are exact' stderr)" = 1 ] || fail "tolerance: $(cat stderr)"
 expect 2 'the tolerance must lie' convert good.obj -o out.vdb --tolerance 0 --grids surface
 expect 4 'memory' convert "$scenes/cube.toml" -o out.vdb --grids surface --dim 3000 --max-memory 256M
 

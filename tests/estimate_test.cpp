@@ -100,6 +100,10 @@ TEST_CASE("estimates cover solids, wide bands and polygons", "[estimate]") {
     options.volume.band = 8;
     options.grids = std::vector{GridKind::kSurface};
     checkEstimate(scene, options);
+    for (const BandWidths band : {BandWidths(2, 7), BandWidths(9, 1), BandWidths(1000, 3)}) {
+      options.volume.band = band;
+      checkEstimate(scene, options);
+    }
     options.grids = std::vector{GridKind::kMask};
     for (const Separation separation : {Separation::k6, Separation::k26})
       for (const int levels : {0, 3}) {

@@ -10,6 +10,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace vox;
 using test::sceneOf;
 
@@ -19,7 +21,7 @@ constexpr int kDeepEnough = 14;  // triangles of the truth are 2^-14 of a face
 constexpr std::size_t kSamples = 2000;
 
 openvdb::FloatGrid::ConstPtr exactSurfaceOf(const PolygonMesh& mesh, double voxelSize,
-                                            double band) {
+                                            const BandWidths& band) {
   ConvertOptions options;
   options.voxelSize = voxelSize;
   options.grids = std::vector{GridKind::kSurface};
@@ -33,11 +35,12 @@ double voxelSizeFor(const PolygonMesh& mesh, double voxelsAcross) {
   return usedBox(mesh).longestSide() / voxelsAcross;
 }
 
-void requireExact(const PolygonMesh& mesh, double voxelsAcross, double band) {
+void requireExact(const PolygonMesh& mesh, double voxelsAcross, const BandWidths& band) {
   const double voxelSize = voxelSizeFor(mesh, voxelsAcross);
   const test::ClosestPoint truth(test::repairedLevel(mesh, 1 / voxelSize), kDeepEnough);
   const auto grid = exactSurfaceOf(mesh, voxelSize, band);
-  const auto errors = test::compareLevelSet(*grid, truth, voxelSize, band, band, kSamples);
+  const auto errors = test::compareLevelSet(*grid, truth, voxelSize, band.in, band.out, kSamples);
+  CHECK(grid->background() == Approx(band.out * voxelSize));
   CAPTURE(errors.rms, errors.largest, errors.active, errors.near);
   CHECK(errors.rms <= (voxelsAcross < 1 ? 2e-3 : 1e-3));
   CHECK(errors.largest <= 0.02);
@@ -66,5 +69,58 @@ TEST_CASE("level sets are exact where the band is wider than the object", "[leve
     if (!shape.closed) continue;
     CAPTURE(shape.name);
     requireExact(shape.mesh, 15, 11);
+  }
+}
+
+TEST_CASE("level sets are exact where the band has two widths", "[level-set][property]") {
+  for (const auto& shape : test::shapes()) {
+    if (!shape.closed) continue;
+    for (const BandWidths band : {BandWidths(1, 6), BandWidths(9, 2.5)}) {
+      CAPTURE(shape.name, band.in, band.out);
+      requireExact(shape.mesh, 15, band);
+    }
+  }
+}
+
+TEST_CASE("a band that is wide inside fills the inside with distances", "[level-set]") {
+  for (const BandWidths band : {BandWidths(18, 3), BandWidths(1000, 3)}) {
+    for (const auto& mesh : {test::cube(), test::torusGrid(12, 8)}) {
+      const double voxelsAcross = 30;
+      CAPTURE(band.in);
+      requireExact(mesh, voxelsAcross, band);
+      const auto grid = exactSurfaceOf(mesh, voxelSizeFor(mesh, voxelsAcross), band);
+      for (auto value = grid->cbeginValueOff(); value; ++value)
+        REQUIRE(*value == grid->background());
+    }
+  }
+}
+
+TEST_CASE("one side of a band is widened beyond 20 voxels, the other stays exact", "[level-set]") {
+  const PolygonMesh mesh = test::torusGrid(12, 8);
+  constexpr double kVoxelsAcross = 300;
+  const double voxelSize = voxelSizeFor(mesh, kVoxelsAcross);
+  const test::ClosestPoint truth(test::repairedLevel(mesh, 1 / voxelSize), kDeepEnough);
+  for (const BandWidths band : {BandWidths(2, 32), BandWidths(28, 4), BandWidths(25, 33)}) {
+    const auto grid = exactSurfaceOf(mesh, voxelSize, band);
+    const auto exact = exactSurfaceOf(
+        mesh, voxelSize, BandWidths(std::min(20.0, band.in), std::min(20.0, band.out)));
+    for (auto value = exact->cbeginValueOn(); value; ++value) {
+      REQUIRE(grid->tree().isValueOn(value.getCoord()));
+      REQUIRE(grid->tree().getValue(value.getCoord()) == *value);
+    }
+    for (auto value = grid->cbeginValueOn(); value; ++value) {
+      REQUIRE(*value < band.out * voxelSize);
+      REQUIRE(*value > -band.in * voxelSize);
+      const bool added = !exact->tree().isValueOn(value.getCoord());
+      if (added) REQUIRE((*value < 0 ? band.in : band.out) > 20);
+    }
+    const auto errors = test::compareLevelSet(*grid, truth, voxelSize, band.in, band.out, kSamples);
+    CAPTURE(band.in, band.out, errors.largest, errors.missing, errors.near);
+    CHECK(errors.rms <= 0.1);  // as wide_band.h says
+    CHECK(errors.largest <= 0.4);
+    CHECK(errors.wrongSigns == 0);
+    CHECK(errors.wrongBackgrounds == 0);
+    CHECK(errors.wrongSides == 0);
+    CHECK(errors.missing <= errors.near / 50);  // within the error of the limits
   }
 }

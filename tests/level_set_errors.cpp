@@ -119,7 +119,7 @@ class LevelSetComparison {
     const double value = valueAt(voxel);
     const auto is = [&](double size) { return std::abs(value - size) <= 1e-5 * std::abs(size); };
     ++errors_.inactive;
-    errors_.wrongBackgrounds += !is(background_) && !is(-background_) && !is(-bandIn_);
+    errors_.wrongBackgrounds += !is(background_) && !is(-bandIn_);
     errors_.wrongSides += isFlipped(value, foot) && signCounts(foot);
   }
 

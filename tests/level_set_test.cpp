@@ -10,6 +10,7 @@
 #include "tests/spline_torus.h"
 
 #include <catch2/catch.hpp>
+#include <openvdb/io/Stream.h>
 
 #include <algorithm>
 #include <cmath>
@@ -214,6 +215,74 @@ TEST_CASE("a closed object keeps its sign beside an open one", "[level-set]") {
   }
 }
 
+TEST_CASE("a band of two widths has a background for each side, beside open objects, too",
+          "[level-set]") {
+  const PolygonMesh solid = test::moved(test::cube(), Vec3d(9, 0, 0), 20);
+  for (const auto& meshes : {std::vector{solid}, std::vector{solid, test::sheet(4, 4)}}) {
+    for (const BandWidths band : {BandWidths(2, 5), BandWidths(5, 3), BandWidths(2, 22)}) {
+      for (const bool half : {false, true}) {
+        ConvertOptions options = surfaceAt(0.2);
+        options.volume.band = band;
+        options.volume.half = half;
+        const Conversion conversion = convert(sceneOf(meshes), options);
+        const auto grid = surfaceOf(conversion);
+        CAPTURE(meshes.size(), band.in, band.out);
+        CHECK(grid->background() == Approx(0.2 * band.out));
+        CHECK(valueAt(*grid, Vec3d(9, 0, 0)) == Approx(-0.2 * band.in));
+        for (auto value = grid->cbeginValueOff(); value; ++value)
+          REQUIRE(*value == (*value < 0 ? valueAt(*grid, Vec3d(9, 0, 0)) : grid->background()));
+        std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
+        writeGrids(stream, conversion);
+        const auto grids = openvdb::io::Stream(stream, false).getGrids();
+        CHECK(lintGrid(*grids->at(0)).empty());
+      }
+    }
+  }
+}
+
+TEST_CASE("a band of two widths is a fault with other values, or without a record of them",
+          "[level-set][lint]") {
+  ConvertOptions options = surfaceAt(0.05);
+  options.volume.band = BandWidths(4, 3);
+  const auto grid = surfaceOf(convert(sceneOf({test::cube()}), options));
+  CHECK(lintGrid(*grid).empty());
+  const auto faultsWith = [&](auto&& change) {
+    const auto changed = grid->deepCopy();
+    change(*changed);
+    return lintGrid(*changed).size();
+  };
+  CHECK(faultsWith([](auto& changed) { changed.removeMeta("vox_options"); }) == 1);
+  CHECK(faultsWith([](auto& changed) {
+          changed.insertMeta("vox_options", openvdb::StringMetadata("band=3,4"));
+        }) == 1);
+  CHECK(faultsWith([](auto& changed) {
+          changed.insertMeta("vox_options", openvdb::StringMetadata("of another program"));
+        }) == 1);
+  CHECK(faultsWith([](auto& changed) { changed.tree().setValueOff({0, 0, 0}, -0.15F); }) == 1);
+  CHECK(faultsWith([](auto& changed) { changed.tree().setValueOn({0, 0, 0}, -0.25F); }) == 1);
+}
+
+TEST_CASE("a tolerance has no effect, and a warning says so once", "[level-set]") {
+  const auto warningsOf = [](const Scene& scene, const ConvertOptions& options) {
+    std::vector<std::string> warnings;
+    estimate(scene, options, warnings);
+    const Conversion conversion = convert(scene, options);
+    CHECK(conversion.report.warnings == warnings);
+    return warnings;
+  };
+  Scene scene = sceneOf({test::cube(), test::moved(test::cube(), Vec3d(9, 0, 0))});
+  ConvertOptions options = surfaceAt(0.1);
+  CHECK(warningsOf(scene, options).empty());
+  options.volume.tolerance = 0.3;
+  const std::vector<std::string> warning = {
+      "tolerance has no effect any more: distances are exact"};
+  CHECK(warningsOf(scene, options) == warning);
+  scene.volume.tolerance = 0.2;
+  CHECK(warningsOf(scene, options) == warning);
+  options.volume.tolerance = std::nullopt;
+  CHECK(warningsOf(scene, options) == warning);
+}
+
 TEST_CASE("the polygons of a level have their own level set", "[level-set]") {
   ConvertOptions options = surfaceAt(0.1);
   options.until = StopRule{0};
@@ -250,6 +319,11 @@ TEST_CASE("any number of threads makes the same level set", "[level-set][paralle
 
 TEST_CASE("level sets that make no sense or do not fit are refused", "[level-set][error]") {
   for (const double band : {0.5, 1e4, -1.0, std::nan("")}) {
+    ConvertOptions options = surfaceAt(0.1);
+    options.volume.band = band;
+    CHECK_THROWS_AS(convert(sceneOf({test::cube()}), options), UsageError);
+  }
+  for (const BandWidths band : {BandWidths(0.5, 3), BandWidths(3, 1001), BandWidths(3, -3)}) {
     ConvertOptions options = surfaceAt(0.1);
     options.volume.band = band;
     CHECK_THROWS_AS(convert(sceneOf({test::cube()}), options), UsageError);

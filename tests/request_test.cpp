@@ -25,7 +25,7 @@ TEST_CASE("without options every value is the default", "[request]") {
   CHECK(request.turn == Turn::kNoTurn);
   CHECK(request.grids == std::vector{GridKind::kDensity});
   CHECK(request.volume.band == kDefaultBand);
-  CHECK(request.volume.tolerance == kDefaultTolerance);
+  CHECK_FALSE(request.volume.tolerance);
   CHECK_FALSE(request.volume.half);
   CHECK(request.optionText == "dim=256");
   REQUIRE(request.objects.size() == 1);
@@ -151,6 +151,9 @@ TEST_CASE("options written as text are read again", "[request]") {
   SECTION("a dim") {
     options.dim = 100;
   }
+  SECTION("two widths of the band") {
+    options.volume.band = BandWidths(1.0 / 0.3, 5);
+  }
   const std::string text = optionText(options);
   CAPTURE(text);
   const RecordedOptions recorded = parseOptionText(text);
@@ -160,6 +163,7 @@ TEST_CASE("options written as text are read again", "[request]") {
   CHECK(recorded.options.weldTolerance == options.weldTolerance);
   CHECK(recorded.options.texture == options.texture);
   CHECK(recorded.options.volume.gain == options.volume.gain);
+  CHECK(recorded.options.volume.band == options.volume.band);
   CHECK(recorded.options.until == options.until);
   const auto& vertices = options.smoothing.interpolatedVertices;
   CHECK(recorded.interpolatedVertices.has_value() == vertices.has_value());
@@ -178,13 +182,26 @@ TEST_CASE("the text of options has its words in a fixed order", "[request][golde
   options.volume.half = true;
   options.until = StopRule{.levels = 3};
   CHECK(optionText(options) == "dim=64 boundary=free weld=0.25 half until=levels=3");
+  options = {};
+  options.volume.band = 3;
+  CHECK(optionText(options) == "band=3");
+  options.volume.band = BandWidths(2, 5);
+  CHECK(optionText(options) == "band=2,5");
+}
+
+TEST_CASE("two widths of the band are recorded even if the scene set them", "[request]") {
+  Scene scene = sceneOf(1);
+  scene.volume.band = BandWidths(2, 5);
+  CHECK(resolve(scene, {}).optionText == "dim=256 band=2,5");
+  scene.volume.band = 5;
+  CHECK(resolve(scene, {}).optionText == "dim=256");
 }
 
 TEST_CASE("text that vox has not written is refused, and quoted", "[request]") {
   for (const std::string word :
        {"weld=abc", "weld=", "weld", "weld=nan", "weld=1x", "weld=-1", "dim=1.5", "dim=-3",
         "boundary=loose", "half=1", "until=later", "texture=fog", "interpolated-vertices=-1",
-        "colour=red", "=", "x"}) {
+        "colour=red", "band=", "band=1,2,3", "band=1,b", "=", "x"}) {
     CAPTURE(word);
     CHECK_THROWS_AS(parseOptionText("dim=64 " + word), InputError);
     CHECK_THROWS_WITH(parseOptionText("dim=64 " + word), Catch::Contains("'" + word + "'"));

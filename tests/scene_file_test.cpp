@@ -56,6 +56,19 @@ TEST_CASE("a scene gives settings and objects", "[scene]") {
   CHECK(scene.objects[0].mesh.faceVertices == std::vector<Index>{0, 1, 2});
 }
 
+TEST_CASE("the band of a scene has one width or two", "[scene]") {
+  const auto bandOf = [](const std::string& value) {
+    return read("[convert]\nband = " + value + "\n[[object]]\n" + kTriangleKeys).volume.band;
+  };
+  CHECK(bandOf("3") == BandWidths(3));
+  CHECK(bandOf("[2, 5.5]") == BandWidths(2, 5.5));
+  CHECK(bandOf("[4, 4]") == BandWidths(4));
+  for (const std::string value : {"[]", "[1]", "[1, 2, 3]", "'2,5'", "[1, 'x']", "[[1, 2], 3]"}) {
+    CAPTURE(value);
+    CHECK_THROWS_AS(bandOf(value), InputError);
+  }
+}
+
 TEST_CASE("a mesh path is relative to its scene", "[scene]") {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "sub");

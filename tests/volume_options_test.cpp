@@ -45,6 +45,15 @@ std::vector<openvdb::Coord> voxelsOf(const Conversion& conversion) {
 
 }  // namespace
 
+TEST_CASE("the text of a band has one width or two", "[options]") {
+  CHECK(bandWidthsIn("3") == BandWidths(3));
+  CHECK(bandWidthsIn("2,5.5") == BandWidths(2, 5.5));
+  for (const char* text : {"", "a", ",", "1,", ",1", "1,2,3", "1 2", "1;2", "1,b", "3x"}) {
+    CAPTURE(text);
+    CHECK_FALSE(bandWidthsIn(text));
+  }
+}
+
 TEST_CASE("the turn of the up axis is a rotation, and can be undone", "[volume]") {
   for (const Turn turn : {Turn::kNoTurn, Turn::kYToZ, Turn::kZToY}) {
     const GridTransform transform{0.5, turn};

@@ -42,12 +42,17 @@ Json toJson(const ObjectReport& object) {
             {"residual", interpolation.lift.residual}}}};
 }
 
+Json bandJson(const std::optional<BandWidths>& band) {
+  if (!band) return nullptr;
+  return band->isSymmetric() ? Json(band->out) : Json{band->in, band->out};
+}
+
 Json toJson(const VolumeOptions& volume) {
   return {{"fill", orNull(kFillNames, volume.fill)},
           {"edge", orNull(kEdgeNames, volume.edge)},
           {"gain", orNull(volume.gain)},
           {"open_mesh", orNull(kOpenMeshNames, volume.openMesh)},
-          {"band", orNull(volume.band)},
+          {"band", bandJson(volume.band)},
           {"tolerance", orNull(volume.tolerance)},
           {"half", orNull(volume.half)},
           {"compression", orNull(kCompressionNames, volume.compression)},

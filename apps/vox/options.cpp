@@ -43,6 +43,15 @@ std::uint64_t parseBytes(const std::string& text) {
   return static_cast<std::uint64_t>(bytes);
 }
 
+BandWidths parseBand(const std::string& text) {
+  const auto band = bandWidthsIn(text);
+  if (!band)
+    throw UsageError(
+        "--band must be a number of voxels, or two with a comma (inside, outside), not '" + text +
+        "'");
+  return *band;
+}
+
 /// Value of an option by its name; nothing if it was not given.
 template <class Enum, std::size_t N>
 std::optional<Enum> parseNamed(const char* option, const NameTable<Enum, N>& names,
@@ -201,14 +210,16 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .type("error|surface|unsigned")
       .group("Output");
   command
-      .add("--band", arguments.band,
-           "Half width of the grid surface, in voxels (default: the scene's, or 3)")
-      .type("W")
+      .add(
+          "--band", [&arguments](const std::string& text) { arguments.band = parseBand(text); },
+          "How far from the surface the grid surface holds distances, in voxels: on both sides, or "
+          "inside and outside (default: the scene's, or 3)")
+      .type("[IN,]OUT")
       .group("Output");
   command
       .add("--tolerance", arguments.tolerance,
-           "Has no effect any more: the grid surface is computed from the smooth surface itself, "
-           "not from polygons near it")
+           "Has no effect any more, and gives a warning: the grid surface is computed from the "
+           "smooth surface itself, not from polygons near it")
       .type("T")
       .group("Output");
 }

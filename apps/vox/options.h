@@ -64,7 +64,7 @@ struct VolumeArguments {
   std::string target;
   std::string up;
   std::optional<double> gain;
-  std::optional<double> band;
+  std::optional<BandWidths> band;
   std::optional<double> tolerance;
   std::optional<bool> half;
 };

@@ -93,8 +93,8 @@ class BandMaker {
         options_(options),
         inside_(inside),
         voxelSize_(static_cast<float>(options.voxelSize)),
-        background_(notBelow(options.out * options.voxelSize)),
-        insideBackground_(notBelow(options.in * options.voxelSize)),
+        background_(backgroundOf(options.out, options.voxelSize)),
+        insideBackground_(backgroundOf(options.in, options.voxelSize)),
         mostOut_(keyOf(static_cast<float>(options.out + options.halfThickness))),
         mostIn_(keyOf(static_cast<float>(options.in + options.halfThickness))),
         pageOf_(bins.count()) {
@@ -309,6 +309,14 @@ Band makeBand(const FootBins& bins, const BandOptions& options, const Inside& in
   BandMaker maker(bins, options, inside);
   maker.run(progress, part);
   return maker.take();
+}
+
+float backgroundOf(double width, double voxelSize) {
+  // OpenVDB refuses a band a little below 3 voxels as too narrow.
+  const double exact = width * voxelSize;
+  const auto nearest = static_cast<float>(exact);
+  return double{nearest} < exact ? std::nextafter(nearest, std::numeric_limits<float>::max())
+                                 : nearest;
 }
 
 }  // namespace vox

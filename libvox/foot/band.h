@@ -27,14 +27,6 @@ struct Inside {
   const openvdb::MaskTree* solid = nullptr;    ///< these, and what they enclose
 };
 
-/// The smallest float that is not below a value. (OpenVDB refuses a band a little below 3 voxels as
-/// too narrow.)
-inline float notBelow(double value) {
-  const auto nearest = static_cast<float>(value);
-  return double{nearest} < value ? std::nextafter(nearest, std::numeric_limits<float>::max())
-                                 : nearest;
-}
-
 /// A narrow band of distances.
 struct Band {
   std::shared_ptr<openvdb::FloatTree> tree;
@@ -53,5 +45,9 @@ struct Band {
 /// @throws Cancelled
 Band makeBand(const FootBins& bins, const BandOptions& options, const Inside& inside,
               Progress& progress, double part);
+
+/// The value of inactive voxels, without the sign: the smallest float that is not below the width.
+/// @param width  voxels
+float backgroundOf(double width, double voxelSize);
 
 }  // namespace vox

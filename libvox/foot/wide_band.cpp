@@ -210,8 +210,9 @@ void widen(openvdb::FloatTree& band, double exact, const FootBins& bins, const B
     farthest = std::min(farthest + 1, last);
     widener.grow(static_cast<float>(farthest));
   }
-  openvdb::tools::changeAsymmetricLevelSetBackground(
-      band, notBelow(options.out * options.voxelSize), -notBelow(options.in * options.voxelSize));
+  openvdb::tools::changeAsymmetricLevelSetBackground(band,
+                                                     backgroundOf(options.out, options.voxelSize),
+                                                     -backgroundOf(options.in, options.voxelSize));
 }
 
 }  // namespace vox

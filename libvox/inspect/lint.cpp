@@ -2,6 +2,7 @@
 
 #include "libvox/inspect/lint.h"
 
+#include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/inspect/compared_types.h"
@@ -9,6 +10,7 @@
 #include "libvox/inspect/steep_pairs.h"
 #include "libvox/inspect/topology.h"
 #include "libvox/io/read_vdb.h"
+#include "libvox/options/option_text.h"
 
 #include <openvdb/tools/Diagnostics.h>
 
@@ -133,12 +135,54 @@ bool isFog(const GridBase& grid) {
          (grid.getGridClass() == openvdb::GRID_UNKNOWN && grid.getName() == "density");
 }
 
+/// The width inside that vox recorded, in voxels, if that outside is another one.
+std::optional<double> recordedInside(const GridBase& grid) {
+  const auto text = grid[kOptionsMetadata];
+  if (!text) return std::nullopt;
+  try {
+    const auto band = parseOptionText(text->str()).options.volume.band;
+    if (band && !band->isSymmetric()) return band->in;
+  } catch (const InputError&) {
+    // Of another program, or damaged: nothing is recorded.
+  }
+  return std::nullopt;
+}
+
+/// Whether values of active voxels lie between -inside and the background, and all others are one
+/// of these.
+template <class Grid>
+bool isBand(const Grid& grid, double inside) {
+  const double background = scalarOf(grid.background());
+  constexpr double kRounding = 1e-6, kHalfRounding = 1.0 / 1024;
+  const double slack = inside * (grid.saveFloatAsHalf() ? kHalfRounding : kRounding);
+  for (auto value = grid.cbeginValueAll(); value; ++value) {
+    const double v = scalarOf(*value);
+    const bool fits = value.isValueOn() ? -inside - slack <= v && v <= background
+                                        : v == background || std::abs(v + inside) <= slack;
+    if (!fits) return false;
+  }
+  return true;
+}
+
+/// What the checks of OpenVDB find wrong with a level set. The last two of them want the same width
+/// on both sides; a band that vox made with two widths is held against these.
+template <class Grid>
+std::string wrongInBand(const Grid& grid) {
+  constexpr std::size_t kChecksButGradient = 8;
+  constexpr std::size_t kChecksButWidths = 6;
+  const std::string wrong = openvdb::tools::checkLevelSet(grid, kChecksButGradient);
+  if (wrong.empty()) return wrong;
+  const auto inside = recordedInside(grid);
+  if (!inside) return wrong;
+  const std::string other = openvdb::tools::checkLevelSet(grid, kChecksButWidths);
+  return !other.empty() || isBand(grid, *inside * grid.voxelSize()[0]) ? other : wrong;
+}
+
 /// What is wrong with a level set; empty: nothing. The last check of OpenVDB, of the gradient, is
 /// left out: it reports exact distances where two parts of the surface are equally near.
 template <class Grid>
 std::string wrongInLevelSet(const Grid& grid) {
-  constexpr std::size_t kChecksButGradient = 8;
-  const std::string wrong = openvdb::tools::checkLevelSet(grid, kChecksButGradient);
+  const std::string wrong = wrongInBand(grid);
   if (!wrong.empty()) return wrong;
   const SteepPairs steep = steepPairs(grid);
   if (steep.count == 0) return {};

@@ -29,6 +29,14 @@ std::vector<GridKind> readGrids(const SceneText& text, const toml::node& node) {
   return grids;
 }
 
+/// 3, or [2, 5]: inside, outside.
+BandWidths readBand(const SceneText& text, const toml::node& node) {
+  if (!node.is_array()) return requireNumber(text, node, "band");
+  const toml::array& widths = requireArray(text, node, "band");
+  if (widths.size() != 2) text.fail(node, "band must be one number, or two: [inside, outside]");
+  return {requireNumber(text, widths[0], "band"), requireNumber(text, widths[1], "band")};
+}
+
 VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table) {
   VolumeOptions volume;
   readNamed(text, table, "fill", kFillNames, volume.fill);
@@ -39,7 +47,7 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
   readNamed(text, table, "up", kUpAxisNames, volume.up);
   if (const auto* half = table.get("half")) volume.half = requireBoolean(text, *half, "half");
   if (const auto* gain = table.get("gain")) volume.gain = requireNumber(text, *gain, "gain");
-  if (const auto* band = table.get("band")) volume.band = requireNumber(text, *band, "band");
+  if (const auto* band = table.get("band")) volume.band = readBand(text, *band);
   if (const auto* tolerance = table.get("tolerance"))
     volume.tolerance = requireNumber(text, *tolerance, "tolerance");
   return volume;

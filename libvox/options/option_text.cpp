@@ -61,6 +61,10 @@ class Writer {
     if (value) begin(key);
   }
   void write(const char* key, const std::vector<Index>& vertices) { write(key, vertices.size()); }
+  void write(const char* key, const BandWidths& band) {
+    write(key, band.in);
+    if (!band.isSymmetric()) text_ << ',' << band.out;
+  }
   void write(const char* key, const TextureSpec& texture) { write(key, textureText(texture)); }
   void write(const char* key, const StopRule& rule) { write(key, stopRuleName(rule)); }
   template <class Enum, std::size_t N>
@@ -120,6 +124,9 @@ class Reader {
   }
   bool read(std::optional<StopRule>& field) const {
     return value_ && take(stopRuleNamed(*value_), field);
+  }
+  bool read(std::optional<BandWidths>& field) const {
+    return value_ && take(bandWidthsIn(*value_), field);
   }
   bool read(std::optional<TextureSpec>& field) const {
     if (!value_) return false;

@@ -4,7 +4,9 @@
 
 #include "libvox/core/error.h"
 
+#include <charconv>
 #include <sstream>
+#include <system_error>
 
 namespace vox {
 namespace {
@@ -17,7 +19,22 @@ void requireBetween(const std::optional<double>& value, double low, double high,
   throw UsageError(text.str());
 }
 
+std::optional<double> numberOfText(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
 }  // namespace
+
+std::optional<BandWidths> bandWidthsIn(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  const auto in = numberOfText(text.substr(0, comma));
+  const auto out = comma == text.npos ? in : numberOfText(text.substr(comma + 1));
+  if (!in || !out) return std::nullopt;
+  return BandWidths(*in, *out);
+}
 
 std::string gridNameFor(GridKind kind, Target target) {
   // Houdini's attributes: normals N, colours Cd.
@@ -28,7 +45,8 @@ std::string gridNameFor(GridKind kind, Target target) {
 
 void requireValid(const VolumeSettings& settings) {
   requireBetween(settings.gain, 1e-30, 1e30, "the gain");
-  requireBetween(settings.band, 1, 1000, "the band");
+  for (const double width : {settings.band.in, settings.band.out})
+    requireBetween(width, 1, 1000, "the band");
   requireBetween(settings.tolerance, 1e-4, 10, "the tolerance");
 }
 

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace vox {
 
@@ -52,8 +53,20 @@ inline constexpr NameTable<Target, 3> kTargetNames = {{{Target::kBlender, "blend
 enum class UpAxis { kY, kZ };
 inline constexpr NameTable<UpAxis, 2> kUpAxisNames = {{{UpAxis::kY, "y"}, {UpAxis::kZ, "z"}}};
 
-inline constexpr double kDefaultBand = 3;          ///< voxels
-inline constexpr double kDefaultTolerance = 0.05;  ///< voxels
+/// How far the grid `surface` holds distances on each side of the surface, in voxels.
+struct BandWidths {
+  double in = 0, out = 0;
+
+  constexpr BandWidths(double both) : in(both), out(both) {}
+  constexpr BandWidths(double inside, double outside) : in(inside), out(outside) {}
+  friend bool operator==(const BandWidths&, const BandWidths&) = default;
+  bool isSymmetric() const { return in == out; }
+};
+
+/// Reads one width for both sides, "3", or "IN,OUT". Nothing if the text is neither.
+std::optional<BandWidths> bandWidthsIn(std::string_view text);
+
+inline constexpr double kDefaultBand = 3;  ///< voxels
 
 /// How to make volumes. A value that is not set comes from the scene, else from the default.
 struct VolumeOptions {
@@ -61,7 +74,7 @@ struct VolumeOptions {
   std::optional<Edge> edge;                ///< default: kHard
   std::optional<double> gain;              ///< value of `density` at its voxels; see densityValue()
   std::optional<OpenMesh> openMesh;        ///< default: kSurface
-  std::optional<double> band;              ///< half width of `surface` in voxels; default 3
+  std::optional<BandWidths> band;          ///< default: kDefaultBand on both sides
   std::optional<double> tolerance;         ///< voxels; has no effect: distances are exact
   std::optional<bool> half;                ///< true: values of 16 bits; default: false, 32 bits
   std::optional<Compression> compression;  ///< default: kBlosc, if OpenVDB has it
@@ -74,8 +87,8 @@ struct VolumeSettings {
   Fill fill = Fill::kSurface;
   Edge edge = Edge::kHard;
   OpenMesh openMesh = OpenMesh::kSurface;
-  double band = kDefaultBand;
-  double tolerance = kDefaultTolerance;
+  BandWidths band = kDefaultBand;
+  std::optional<double> tolerance = {};  ///< voxels; has no effect
   bool half = false;
   Target target = Target::kBlender;
   std::optional<double> gain = {};  ///< empty: what suits target and voxel size, densityValue()

@@ -15,6 +15,7 @@
 #include "libvox/pipeline/sheets.h"
 #include "libvox/volume/fill.h"
 
+#include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/Composite.h>
 
 #include <algorithm>
@@ -132,7 +133,7 @@ class LevelSetMaker {
     if (!open_.empty()) {
       const openvdb::FloatTree::Ptr sheets = bandOfSheets();
       if (tree)
-        openvdb::tools::csgUnion(*tree, *sheets);
+        unite(*tree, *sheets);
       else
         tree = sheets;
     }
@@ -142,6 +143,16 @@ class LevelSetMaker {
   bool hasSheets() const { return !open_.empty(); }
 
  private:
+  /// Adds sheets to solids.
+  void unite(openvdb::FloatTree& solids, openvdb::FloatTree& sheets) const {
+    openvdb::tools::csgUnion(solids, sheets);
+    // It leaves tiles inside with the background of the outside.
+    const BandWidths& band = settings_.band;
+    if (!band.isSymmetric())
+      openvdb::tools::changeAsymmetricLevelSetBackground(solids, backgroundOf(band.out, voxelSize_),
+                                                         -backgroundOf(band.in, voxelSize_));
+  }
+
   /// Half width up to which all cells scan their tubes. Beyond it tubes spread too much.
   static constexpr double kMostExact = 8;  // voxels
 
@@ -179,7 +190,7 @@ class LevelSetMaker {
   openvdb::FloatTree::Ptr bandOfSolids() {
     setGroups(closed_);
     constexpr double kFirst = 0.9;  // share of the stage
-    const BandOptions options{settings_.band, settings_.band, voxelSize_};
+    const BandOptions options{settings_.band.in, settings_.band.out, voxelSize_};
     const bool overlap =
         mayMeet(closed_) || std::any_of(closed_.begin(), closed_.end(), facesInward);
     if (!overlap && inside_.solid == nullptr) {
@@ -194,7 +205,8 @@ class LevelSetMaker {
   openvdb::FloatTree::Ptr bandOfSheets() {
     constexpr double kHalfThickness = 0.5;
     const double half = settings_.openMesh == OpenMesh::kUnsigned ? 0 : kHalfThickness;
-    const BandOptions options{settings_.band, settings_.band, voxelSize_, true, half};
+    const double out = settings_.band.out;  // no voxel is deeper than half the thickness
+    const BandOptions options{out, out, voxelSize_, true, half};
     const double share = closed_.empty() ? 1 : 0.1;
     return widened(bandOf(open_, options, false, share), open_, options, false);
   }

@@ -226,10 +226,13 @@ GridEstimate estimateSoftDensity(const Measure& m, const VolumeSettings& volume)
 }
 
 GridEstimate estimateSurface(const Measure& m, const VolumeSettings& volume) {
-  const double band = volume.band;
+  // Inside there may be less room than the band is wide.
+  const double closedArea = m.area - m.sheetArea;
+  const double inner = std::min(volume.band.in * closedArea, m.volume + closedArea);
+  const double band = volume.band.out * (m.area + m.sheetArea) + inner;
   GridEstimate grid{GridKind::kSurface};
-  grid.voxels = 2 * band * m.area;
-  grid.leaves = std::max(m.leaves, (8 * m.taxicabArea + 2 * band * m.area) / FloatLeaf::SIZE);
+  grid.voxels = band;
+  grid.leaves = std::max(m.leaves, (8 * m.taxicabArea + band) / FloatLeaf::SIZE);
   grid.bytes = bytesOfValues(grid.leaves, m);
   grid.peakBytes = grid.bytes + kCellBytes * m.area;
   const double filePerVoxel = volume.half ? 2.6 : 4.4;

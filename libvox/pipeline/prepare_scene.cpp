@@ -90,6 +90,8 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
   for (const SceneObject& object : scene.objects)
     budget.take(bytesOf(object.mesh), "the input", "raise --max-memory");
 
+  if (request.volume.tolerance)
+    report.warnings.push_back("tolerance has no effect any more: distances are exact");
   const Box box = boxOf(scene);
   GridTransform& transform = prepared.transform;
   transform = transformFor(request.resolution, box);

@@ -45,9 +45,9 @@ VolumeSettings volumeOf(const VolumeOptions& first, const VolumeOptions& second)
   choose(&VolumeOptions::edge, all.edge);
   choose(&VolumeOptions::openMesh, all.openMesh);
   choose(&VolumeOptions::band, all.band);
-  choose(&VolumeOptions::tolerance, all.tolerance);
   choose(&VolumeOptions::half, all.half);
   choose(&VolumeOptions::target, all.target);
+  all.tolerance = first.tolerance ? first.tolerance : second.tolerance;
   all.gain = first.gain ? first.gain : second.gain;
   all.compression = first.compression ? first.compression : second.compression;
   requireValid(all);
@@ -73,11 +73,13 @@ ConversionWay wayOf(const Scene& scene, const SceneObject& object, const Convert
   return chooseWay(until, voxelize, options.separation);
 }
 
-/// The text of the options; the resolution is there even if the scene or the default set it.
-std::string textOf(ConvertOptions options, const Resolution& resolution) {
+/// The text of the options. The resolution is there even if the scene or the default set it, and so
+/// are different widths of the band: they tell which values the level set has far off.
+std::string textOf(ConvertOptions options, const Resolution& resolution, const BandWidths& band) {
   options.voxelSize = resolution.voxelSize;
   options.dim = resolution.dim.value_or(kDefaultDim);
   if (options.voxelSize) options.dim.reset();
+  if (!band.isSymmetric()) options.volume.band = band;
   return optionText(options);
 }
 
@@ -127,7 +129,7 @@ Request resolve(const Scene& scene, const ConvertOptions& options) {
   const auto& up = options.volume.up ? options.volume.up : scene.volume.up;
   request.turn = turnFor(up, request.volume.target);
   request.grids = gridsOf(scene, options);
-  request.optionText = textOf(options, request.resolution);
+  request.optionText = textOf(options, request.resolution, request.volume.band);
   requirePreparable(scene, options);
   return request;
 }
