@@ -99,12 +99,6 @@ void requireMinima(const SubdivisionLevel& base, Index samples) {
   }
 }
 
-Vec3d pointOf(const Patch& patch, SplinePlace u, SplinePlace v) {
-  const auto& p = patch.points;
-  return v.value(u.value(p[0][0], p[1][0], p[2][0]), u.value(p[0][1], p[1][1], p[2][1]),
-                 u.value(p[0][2], p[1][2], p[2][2]));
-}
-
 PolygonMesh octahedron() {
   return test::meshOf(
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
@@ -194,7 +188,8 @@ TEST_CASE("closest points are global minima over patches that are folded and twi
   for (const Patch& patch : pieces.patches)
     for (int i = 0; i <= kSamples; ++i)
       for (int j = 0; j <= kSamples; ++j)
-        points.push_back(pointOf(patch, {double(i) / kSamples}, {double(j) / kSamples}));
+        points.push_back(
+            splinePoint(patch.points, {double(i) / kSamples}, {double(j) / kSamples}).point);
   for (const Vec3d& p : randomPoints(2000, 5)) {
     const double sampled = distanceToCloud({points}, p);
     const ClosestPoint::Foot foot = truth.of(p);
@@ -242,10 +237,7 @@ TEST_CASE("normals are those of the patches", "[truth]") {
     const test::LimitPieces pieces = test::limitPieces(base, 5);
     const ClosestPoint truth(base, 5);
     for (const Patch& patch : pieces.patches) {
-      const SplinePlace u{0.3};
-      const SplinePlace v{0.6};
-      const Vec3d point = pointOf(patch, u, v);
-      const Vec3d normal = LimitNormals(patch, u).at(v);
+      const auto [point, normal] = splinePoint(patch.points, {0.3}, {0.6});
       for (const double side : {-1e-3, 1e-3}) {
         const ClosestPoint::Foot foot = truth.of(point + side * normal);
         CHECK(foot.signedDistance == Approx(side).margin(1e-10));

@@ -6,7 +6,6 @@
 #include "libvox/mesh/validate.h"
 #include "libvox/prepare/repair.h"
 #include "libvox/subdivide/doo_sabin.h"
-#include "libvox/subdivide/image_vertices.h"
 #include "libvox/subdivide/stop.h"
 #include "tests/repaired_level.h"
 #include "tests/shapes.h"
@@ -29,7 +28,7 @@ class Welder : public PolygonSink {
  public:
   PolygonMesh mesh;
 
-  void polygons(const PolygonMesh& piece, std::span<const Vec3d>) override {
+  void polygons(const PolygonMesh& piece) override {
     std::vector<Index> face;
     for (Index f = 0; f < piece.faceCount(); ++f) {
       face.clear();
@@ -320,148 +319,12 @@ TEST_CASE("the polygons are as near the smooth surface as the rule says", "[subd
   CHECK(most > 0.2);  // the bound is not idle
 }
 
-namespace {
-
-/// Keeps all points and normals.
-class Recorder : public PolygonSink {
- public:
-  explicit Recorder(bool withNormals) : withNormals_(withNormals) {}
-  bool wantsNormals() const override { return withNormals_; }
-
-  PolygonMesh mesh;
-  std::vector<Vec3d> normals;
-
-  void polygons(const PolygonMesh& piece, std::span<const Vec3d> pieceNormals) override {
-    CHECK(pieceNormals.size() == (withNormals_ ? piece.points.size() : 0));
-    append(mesh, piece);
-    normals.insert(normals.end(), pieceNormals.begin(), pieceNormals.end());
-  }
-
-  /// The normal of each point; checks that points with the same bits have the same normal.
-  std::map<std::array<double, 3>, Vec3d> byPoint() const {
-    std::map<std::array<double, 3>, Vec3d> all;
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-      const Vec3d& p = mesh.points[i];
-      const auto [entry, isNew] = all.try_emplace({p.x(), p.y(), p.z()}, normals[i]);
-      if (!isNew) CHECK(entry->second == normals[i]);
-    }
-    return all;
-  }
-
- private:
-  bool withNormals_;
-};
-
-Recorder recorded(const SubdivisionLevel& base, const std::vector<VertexDepth>& depths,
-                  Index submeshFaces, bool withNormals, const DepthRule* rule = nullptr) {
-  Recorder recorder(withNormals);
-  LocalPolygons polygons(base);
-  const Partition partition = coverGreedily(base.mesh, base.adjacency, submeshFaces);
-  for (Index s = 0; s < partition.size(); ++s)
-    polygons.emit(partition.submesh(s), depths, rule, recorder);
-  return recorder;
-}
-
-double degreesBetween(const Vec3d& a, const Vec3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / M_PI;
-}
-
-}  // namespace
-
-TEST_CASE("normals do not change the polygons, and are the same in all pieces",
-          "[subdivide][localize][normals][property]") {
-  std::uint32_t seed = 100;
-  forShapes([&](SubdivisionLevel base) {
-    for (Vec3d& p : base.mesh.points) p *= 20;
-    const DepthRule rule(StopRule{{}, {}, {}, 0.1});
-    std::vector<VertexDepth> ruled(base.mesh.cornerCount());
-    std::vector<Index> all(base.mesh.faceCount());
-    std::iota(all.begin(), all.end(), Index{0});
-    LocalPolygons(base).findDepths(all, rule, ruled);
-    for (const bool byRule : {false, true}) {
-      CAPTURE(++seed, byRule);
-      const auto depths = byRule ? ruled : randomDepths(base, 3, seed);
-      const DepthRule* within = byRule ? &rule : nullptr;
-      const Recorder plain = recorded(base, depths, 3, false, within);
-      const Recorder cut = recorded(base, depths, 3, true, within);
-      CHECK(cut.mesh.points == plain.mesh.points);
-      CHECK(cut.mesh.faceVertices == plain.mesh.faceVertices);
-      CHECK(cut.mesh.faceOffsets == plain.mesh.faceOffsets);
-
-      const auto normals = cut.byPoint();
-      for (const auto& entry : normals) CHECK(entry.second.norm() == Approx(1));
-      CHECK(recorded(base, depths, 100000, true, within).byPoint() == normals);
-    }
-  });
-}
-
-TEST_CASE("tiles of large arrays have the same normals as the pieces beside them",
-          "[subdivide][localize][normals]") {
+TEST_CASE("tiles of large arrays have the same points as the pieces beside them",
+          "[subdivide][localize]") {
   const SubdivisionLevel base = test::repairedLevel(test::tetrahedron(), BoundaryRule::kExtend);
   std::vector<VertexDepth> depths(base.mesh.cornerCount());
   depths[4] = {7, 7};
-  const auto normals = recorded(base, depths, 2, true).byPoint();
-  CHECK(normals.size() == 128 * 128 + base.mesh.cornerCount() - 1);
-}
-
-TEST_CASE("the normals of polygons are those of the V-faces of the next level",
-          "[subdivide][localize][normals][property]") {
-  std::size_t compared = 0;
-  forShapes([&](const SubdivisionLevel& base) {
-    for (const int levels : {1, 2}) {
-      const SubdivisionLevel level = subdivide(base, levels);
-      const std::vector<Vec3d> images = imageVertices(level);
-      const auto local = recorded(base, uniform(base, levels - 1), 3, true).byPoint();
-      std::vector<bool> done(level.mesh.pointCount());
-      for (Index c = 0; c < level.mesh.cornerCount(); ++c) {
-        const Index v = level.mesh.faceVertices[c];
-        if (done[v]) continue;
-        done[v] = true;
-        const OneRing ring = oneRing(level.mesh, level.adjacency, c);
-        if (!ring.closed) continue;
-        const Vec3d expected = twiceAreaVector(
-            ring.corners.size(), [&](std::size_t i) { return images[ring.corners[i]]; });
-        const Vec3d& at = level.mesh.points[v];
-        const auto nearest = std::min_element(local.begin(), local.end(), [&](auto& a, auto& b) {
-          const auto distance = [&](const std::array<double, 3>& p) {
-            return (Vec3d(p[0], p[1], p[2]) - at).squaredNorm();
-          };
-          return distance(a.first) < distance(b.first);
-        });
-        CHECK(degreesBetween(nearest->second, expected) < 1e-5);
-        ++compared;
-      }
-    }
-  });
-  CHECK(compared > 1000);
-}
-
-TEST_CASE("on a boundary, normals stand across its curve",
-          "[subdivide][localize][normals][property]") {
-  for (const PolygonMesh& mesh : {test::sheet(4, 3), test::tube(7, 3), test::sheet(5, 1)}) {
-    const SubdivisionLevel base = test::repairedLevel(mesh, BoundaryRule::kExtend);
-    const auto depths = uniform(base, 2);
-    const auto normals = recorded(base, depths, 3, true).byPoint();
-    const PolygonMesh whole = refined(base, depths, 3);
-    const Adjacency adjacency = buildAdjacency(whole);
-    std::size_t steep = 0;
-    std::size_t points = 0;
-    for (const auto& loop : boundaryLoops(whole, adjacency))
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        const auto pointOf = [&](std::size_t k) -> const Vec3d& {
-          return whole.points[whole.faceVertices[loop[k % loop.size()]]];
-        };
-        const Vec3d& p = pointOf(i);
-        // The direction of a quadratic B-spline at the middle of a control point's span.
-        const Vec3d tangent = (pointOf(i + 1) - pointOf(i + loop.size() - 1)).normalized();
-        const Vec3d& normal = normals.at({p.x(), p.y(), p.z()});
-        const double slope = std::abs(normal.dot(tangent));
-        CHECK(slope < 0.2);
-        steep += slope > 1e-9;
-        ++points;
-      }
-    // Only beside the corners of a sheet, where the vertex inside has another plane.
-    CHECK(steep <= 8);
-    CHECK(points > 50);
-  }
+  const PolygonMesh mesh = refined(base, depths, 2);
+  CHECK(mesh.pointCount() == 128 * 128 + base.mesh.cornerCount() - 1);
+  CHECK(boundaryEdges(mesh) == 0);
 }

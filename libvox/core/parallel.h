@@ -5,7 +5,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 #include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
@@ -104,20 +103,6 @@ void parallelForEach(Integer count, std::size_t grain, Body&& body) {
   parallelForRanges(count, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) body(static_cast<Integer>(i));
   });
-}
-
-/// Largest value of body(begin, end) over ranges that cover [0, count), or 0 if all are negative.
-/// Calls body in parallel, with ranges as in parallelForRanges.
-template <class Body>
-double parallelMax(std::size_t count, std::size_t grain, Body&& body) {
-  LoopOrder order;
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, count, grain), 0.0,
-      [&](const auto& range, double before) {
-        const LoopOrder::Part part(order);
-        return std::max(before, body(range.begin(), range.end()));
-      },
-      [](double a, double b) { return std::max(a, b); });
 }
 
 /// Sorts a vector in parallel. The order must be total, so that the result does not depend on

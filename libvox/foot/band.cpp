@@ -311,10 +311,4 @@ Band makeBand(const FootBins& bins, const BandOptions& options, const Inside& in
   return maker.take();
 }
 
-double bytesOfBand(double area, double in, double out) {
-  // On average over directions, a surface reaches leaves within 12 voxels around it.
-  const double leaves = area * (12 + in + out) / Leaf::SIZE;
-  return leaves * (sizeof(Leaf) + Leaf::SIZE * sizeof(float));
-}
-
 }  // namespace vox

@@ -54,8 +54,4 @@ struct Band {
 Band makeBand(const FootBins& bins, const BandOptions& options, const Inside& inside,
               Progress& progress, double part);
 
-/// Estimate of the bytes of a band.
-/// @param area  of the surface, in square voxels
-double bytesOfBand(double area, double in, double out);
-
 }  // namespace vox

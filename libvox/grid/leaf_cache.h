@@ -48,7 +48,6 @@ class LeafCache {
   struct Positions {
     using Column = std::array<double, kPositionsAtOnce>;
     alignas(64) std::array<Column, 3> axis{};
-    Vec3d operator[](std::size_t i) const { return {axis[0][i], axis[1][i], axis[2][i]}; }
   };
   /// Switches on the voxels that hold the first `count` positions (voxelOf).
   /// @throws LimitError  as collect

@@ -1,10 +1,23 @@
-// Patches at free boundaries: control points for missing faces.
+// Points of patches; patches at free boundaries: control points for missing faces.
 
 #include "libvox/mesh/patch.h"
 
 #include "libvox/mesh/chaikin.h"
 
 namespace vox {
+
+SplinePoint splinePoint(const std::array<std::array<Vec3d, 3>, 3>& controls, SplinePlace u,
+                        SplinePlace v) {
+  CurvePoints values, slopes;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Vec3d &a = controls[0][j], &b = controls[1][j], &c = controls[2][j];
+    values[j] = u.value(a, b, c);
+    slopes[j] = u.slope(a, b, c);
+  }
+  return {v.value(values[0], values[1], values[2]),
+          normalOfTangents(v.value(slopes[0], slopes[1], slopes[2]),
+                           v.slope(values[0], values[1], values[2]))};
+}
 
 Patch continued(const Patch& partial) {
   Patch patch = partial;

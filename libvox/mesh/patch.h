@@ -59,10 +59,6 @@ inline CurvePoints rowOf(const Patch& patch, const PatchWeights& u) {
 /// A parameter t in 0 .. 1 along one axis of the limit surface of a patch, a biquadratic B-spline.
 struct SplinePlace {
   double t;
-  /// Parameter of the limit point of vertex i of n.
-  static SplinePlace ofVertex(std::int64_t i, std::int64_t n) {
-    return {(static_cast<double>(i) + 0.5) / static_cast<double>(n)};
-  }
   /// Point of the spline with three successive control points.
   Vec3d value(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
     return (0.5 * (1 - t) * (1 - t)) * a + (0.5 + t * (1 - t)) * b + (0.5 * t * t) * c;
@@ -82,26 +78,15 @@ inline Vec3d normalOfTangents(const Vec3d& a, const Vec3d& b) {
   return normal.stableNormalized();
 }
 
-/// Exact normals of the limit surface of a patch at one parameter along u.
-/// Precondition: the patch has all four faces, or comes from continued().
-class LimitNormals {
- public:
-  LimitNormals(const Patch& patch, SplinePlace u) {
-    for (std::size_t v = 0; v < 3; ++v) {
-      const Vec3d &a = patch.points[0][v], &b = patch.points[1][v], &c = patch.points[2][v];
-      values_[v] = u.value(a, b, c);
-      slopes_[v] = u.slope(a, b, c);
-    }
-  }
-  /// Outward unit normal (u, v and the normal are right-handed); 0 where the surface has none.
-  Vec3d at(SplinePlace v) const {
-    return normalOfTangents(v.value(slopes_[0], slopes_[1], slopes_[2]),
-                            v.slope(values_[0], values_[1], values_[2]));
-  }
-
- private:
-  CurvePoints values_, slopes_;
+/// A point of the limit surface of a patch.
+struct SplinePoint {
+  Vec3d point;
+  Vec3d normal;  ///< unit, outward (u, v and the normal are right-handed); 0 if there is none
 };
+
+/// @param controls  of a patch that has all four faces, or comes from continued()
+SplinePoint splinePoint(const std::array<std::array<Vec3d, 3>, 3>& controls, SplinePlace u,
+                        SplinePlace v);
 
 /// The patch with all four faces: control points of missing faces are placed so that the surface
 /// goes on straight.

@@ -40,19 +40,10 @@ LimitPiece halfOf(const LimitPiece& piece, bool alongU, bool high) {
 
 /// Whether a voxel that is not solid lies near a point, on either side.
 bool ExposedPieces::isExposed(const LimitPiece& piece, double u, double v) const {
-  const SplinePlace atU{u}, atV{v};
-  std::array<Vec3d, 3> values, slopes;
-  for (std::size_t j = 0; j < 3; ++j) {
-    const auto& p = piece.points;
-    values[j] = atU.value(p[0][j], p[1][j], p[2][j]);
-    slopes[j] = atU.slope(p[0][j], p[1][j], p[2][j]);
-  }
-  const Vec3d point = atV.value(values[0], values[1], values[2]);
-  const Vec3d normal = normalOfTangents(atV.value(slopes[0], slopes[1], slopes[2]),
-                                        atV.slope(values[0], values[1], values[2]));
-  if (normal.isZero(0)) return true;
+  const SplinePoint place = splinePoint(piece.points, {u}, {v});
+  if (place.normal.isZero(0)) return true;
   const auto isOutside = [&](double offset) {
-    const Vec3d at = point + offset * normal;
+    const Vec3d at = place.point + offset * place.normal;
     return !solid_.isValueOn(openvdb::Coord::round(openvdb::Vec3d(at.data())));
   };
   constexpr double kBeyondSurface = 1.1;  // beyond the voxels that the surface itself crosses

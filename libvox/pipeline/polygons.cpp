@@ -40,9 +40,7 @@ class ScanSink : public PolygonSink {
   ScanSink(ActiveVoxels& grid, Separation separation, const Progress& progress, ScanSinks& all)
       : cache_(grid), separation_(separation), progress_(progress), all_(all) {}
 
-  void polygons(const PolygonMesh& piece, std::span<const Vec3d>) override {
-    faces(piece, 0, piece.faceCount());
-  }
+  void polygons(const PolygonMesh& piece) override { faces(piece, 0, piece.faceCount()); }
 
   void faces(const PolygonMesh& mesh, Index begin, Index end) {
     triangles_.clear();

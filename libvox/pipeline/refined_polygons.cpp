@@ -37,11 +37,9 @@ class TaskSink : public PolygonSink {
   TaskSink(const std::function<PolygonSink&()>& sinkOfThread, SubmeshTask& task)
       : sinkOfThread_(sinkOfThread), sink_(sinkOfThread()), task_(task) {}
 
-  bool wantsNormals() const override { return sink_.wantsNormals(); }
-
-  void polygons(const PolygonMesh& piece, std::span<const Vec3d> normals) override {
+  void polygons(const PolygonMesh& piece) override {
     task_.progress.check();
-    sink_.polygons(piece, normals);
+    sink_.polygons(piece);
     task_.walked += piece.pointCount();
   }
 
@@ -74,7 +72,7 @@ class SoupSink : public PolygonSink {
  public:
   TriangleSoup soup;
 
-  void polygons(const PolygonMesh& piece, std::span<const Vec3d>) override {
+  void polygons(const PolygonMesh& piece) override {
     triangles_.clear();
     for (Index f = 0; f < piece.faceCount(); ++f) faces_.add(piece, f, triangles_);
     append(piece.points, triangles_, soup);

@@ -51,8 +51,6 @@ class LocalImages {
 
   /// Number of corners of the submesh. Their slots are 0 .. ownSlots() - 1, face by face.
   Index ownSlots() const { return ownSlots_; }
-  /// Slot of the first corner of a face of the submesh.
-  Index firstSlot(Index face) const { return firstSlot_[face]; }
   const Vec3d& image(Index slot) const { return images_[slot]; }
   std::span<const Vec3d> imagesOfFace(Index firstSlot, Index size) const {
     return std::span(images_).subspan(firstSlot, size);

@@ -3,6 +3,7 @@
 #include "libvox/subdivide/local_polygons.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace vox {
@@ -12,56 +13,37 @@ namespace {
 constexpr int kMostLog2OfPiece = 12;
 
 SideRow sideOfNext(const VertexArray& array) {
-  return {array.depth().v, [&array](std::int64_t first, PointRow& row) {
-            row.setAlongV(array, array.sizeU() - 1, first);
+  return {array.depth().v, [&array](std::int64_t first, std::span<Vec3d> row) {
+            array.alongV(array.sizeU() - 1, first, row);
           }};
 }
 SideRow sideOfPrevious(const VertexArray& array) {
-  return {array.depth().u, [&array](std::int64_t first, PointRow& row) {
-            row.setAlongU(array, array.sizeV() - 1, first);
+  return {array.depth().u, [&array](std::int64_t first, std::span<Vec3d> row) {
+            array.alongU(array.sizeV() - 1, first, row);
           }};
 }
 SideRow sideOfR(const VertexArray& array) {
   return {array.depth().u,
-          [&array](std::int64_t first, PointRow& row) { row.setAlongU(array, 0, first); }};
+          [&array](std::int64_t first, std::span<Vec3d> row) { array.alongU(0, first, row); }};
 }
 SideRow sideOfL(const VertexArray& array) {
   return {array.depth().v,
-          [&array](std::int64_t first, PointRow& row) { row.setAlongV(array, 0, first); }};
+          [&array](std::int64_t first, std::span<Vec3d> row) { array.alongV(0, first, row); }};
 }
 
 Vec3d onCurve(const CurvePoints& curve, std::int64_t j, std::int64_t n) {
   return PatchWeights(j, n)(curve[0], curve[1], curve[2]);
 }
 
-/// Boundary points across R from the vertices (i, 0) of an array, i = first, first + 1, ...
-void setPointsAcrossR(const VertexArray& array, const CurvePoints& curve, std::int64_t first,
-                      PointRow& row) {
-  if (row.hasNormals) array.normalsAcrossR(first, row.normals);
-  for (Vec3d& point : row.points) point = onCurve(curve, first++, array.sizeU());
-}
-
-/// Boundary points across L from the vertices (0, j), j = first, first + 1, ..., against the
-/// direction of the boundary.
-void setPointsAcrossL(const VertexArray& array, const CurvePoints& curve, std::int64_t first,
-                      PointRow& row) {
-  if (row.hasNormals) array.normalsAcrossL(first, row.normals);
-  for (Vec3d& point : row.points)
-    point = onCurve(curve, array.sizeV() - 1 - first++, array.sizeV());
-}
-
-void addPointAcrossR(const VertexArray& array, const CurvePoints& curve, std::int64_t i,
-                     PointRow& row) {
-  PointRow point = row.ofSize(1);
-  setPointsAcrossR(array, curve, i, point);
-  row.add(point);
-}
-
-void addPointAcrossL(const VertexArray& array, const CurvePoints& curve, std::int64_t j,
-                     PointRow& row) {
-  PointRow point = row.ofSize(1);
-  setPointsAcrossL(array, curve, j, point);
-  row.add(point);
+/// Points of a boundary, in its direction or against it.
+SideRow boundaryRow(const CurvePoints& curve, int log2Size, bool forward) {
+  return {log2Size, [curve, log2Size, forward](std::int64_t first, std::span<Vec3d> points) {
+            const std::int64_t n = std::int64_t{1} << log2Size;
+            for (Vec3d& point : points) {
+              point = onCurve(curve, forward ? first : n - 1 - first, n);
+              ++first;
+            }
+          }};
 }
 
 }  // namespace
@@ -90,11 +72,7 @@ void LocalPolygons::findDepths(std::span<const Index> faces, const DepthRule& ru
 
 void LocalPolygons::emit(std::span<const Index> faces, std::span<const VertexDepth> depths,
                          const DepthRule* rule, PolygonSink& sink) {
-  polygon_.hasNormals = row_.hasNormals = sink.wantsNormals();
-  if (sink.wantsNormals())
-    vertices_.setWithNeighbours(faces);
-  else
-    vertices_.set(faces);
+  vertices_.set(faces);
   rule_ = rule;
   depths_ = depths;
   const PolygonMesh& mesh = vertices_.images().base().mesh;
@@ -109,38 +87,8 @@ void LocalPolygons::emit(std::span<const Index> faces, std::span<const VertexDep
 
 void LocalPolygons::setArray(const Corner& corner, VertexArray& array, bool& whole) {
   const LevelOneVertex vertex = vertices_.at(corner);
-  array.set(vertex, depths_[corner.number], row_.hasNormals);
+  array.set(vertex, depths_[corner.number]);
   whole = vertex.whole();
-}
-
-// The arrays of level-1 vertices beyond the submesh. With normals they are whole; without, only the
-// points that the strips and polygons use are right (LevelOneVertex).
-
-/// Sets other_ to the array of the corner `beyond`, which lies across the edge of `corner`, at the
-/// same vertex.
-void LocalPolygons::setAcrossR(const Corner& corner, Index beyond) {
-  if (row_.hasNormals)
-    other_.set(vertices_.at(vertices_.cornerOf(beyond)), depths_[beyond], true);
-  else
-    other_.set(vertices_.acrossR(corner), depths_[beyond]);
-}
-
-/// Sets otherFar_ to the array of the twin of `corner`.
-void LocalPolygons::setAcrossRFromNext(const Corner& corner, Index twin) {
-  if (row_.hasNormals)
-    otherFar_.set(vertices_.at(vertices_.cornerOf(twin)), depths_[twin], true);
-  else
-    otherFar_.set(vertices_.acrossRFromNext(corner), depths_[twin]);
-}
-
-/// Sets other_ to the array of a corner of a V-face.
-void LocalPolygons::setInVFace(Index number, Index place, Index corner) {
-  const SubdivisionLevel& base = vertices_.images().base();
-  const bool quad = base.mesh.faceSize(base.adjacency.cornerFace[corner]) == 4;
-  if (row_.hasNormals)
-    other_.set(vertices_.at(vertices_.cornerOf(corner)), depths_[corner], true);
-  else
-    other_.set(vertices_.inVFace(number, place, quad), depths_[corner]);
 }
 
 void LocalPolygons::emitFace(const Corner& first, PolygonPieces& pieces, PolygonSink& sink) {
@@ -151,7 +99,7 @@ void LocalPolygons::emitFace(const Corner& first, PolygonPieces& pieces, Polygon
   for (Index i = 0; i < first.size; ++i, c = c.next()) {
     std::swap(here_, next_);
     emitArray(here_, whole, pieces, sink);
-    polygon_.addCornerF(here_);
+    polygon_.push_back(here_.cornerF());
     setArray(c.next(), next_, whole);
     const bool interior = !vertices_.isBoundary(c);
     if (interior || vertices_.images().extends())
@@ -183,7 +131,7 @@ void LocalPolygons::emitGrid(const VertexArray& array, PolygonPieces& pieces, Po
   const auto width = static_cast<Index>(array.sizeV());
   row_.resize(width);
   for (std::int64_t i = 0; i < array.sizeU(); ++i) {
-    row_.setAlongV(array, i, 0);
+    array.alongV(i, 0, row_);
     const Index here = pieces.addPoints(row_);
     if (i == 0) continue;
     for (Index j = 0; j + 1 < width; ++j)
@@ -225,13 +173,13 @@ bool LocalPolygons::emitBlocks(const VertexArray& array, PolygonPieces& pieces, 
 void LocalPolygons::emitRim(const VertexArray& array, const VertexArray::Block& block,
                             PolygonPieces& pieces) {
   const auto alongV = [&](std::int64_t i) {
-    return SideRow{block.depth.v, [&array, &block, i](std::int64_t first, PointRow& row) {
-                     row.setAlongV(array, i, block.v + first);
+    return SideRow{block.depth.v, [&array, &block, i](std::int64_t first, std::span<Vec3d> row) {
+                     array.alongV(i, block.v + first, row);
                    }};
   };
   const auto alongU = [&](std::int64_t j) {
-    return SideRow{block.depth.u, [&array, &block, j](std::int64_t first, PointRow& row) {
-                     row.setAlongU(array, j, block.u + first);
+    return SideRow{block.depth.u, [&array, &block, j](std::int64_t first, std::span<Vec3d> row) {
+                     array.alongU(j, block.u + first, row);
                    }};
   };
   stitch(alongV(block.u), sideOfL(inner_), pieces);
@@ -259,13 +207,13 @@ void LocalPolygons::emitSeams(const VertexArray& array, const VertexArray::Block
   if (block.endU() < array.sizeU())
     addQuads(
         std::min(block.endV(), array.sizeV() - 1) - block.v,
-        [&](std::int64_t j) { row_.setAlongV(array, block.endU() - 1, block.v + j); },
-        [&](std::int64_t j) { row_.setAlongV(array, block.endU(), block.v + j); });
+        [&](std::int64_t j) { array.alongV(block.endU() - 1, block.v + j, row_); },
+        [&](std::int64_t j) { array.alongV(block.endU(), block.v + j, row_); });
   if (block.endV() < array.sizeV())
     addQuads(
         block.endU() - 1 - block.u,
-        [&](std::int64_t i) { row_.setAlongU(array, block.endV(), block.u + i); },
-        [&](std::int64_t i) { row_.setAlongU(array, block.endV() - 1, block.u + i); });
+        [&](std::int64_t i) { array.alongU(block.endV(), block.u + i, row_); },
+        [&](std::int64_t i) { array.alongU(block.endV() - 1, block.u + i, row_); });
 }
 
 /// Emits the faces that a corner owns across its edge: the strip to the corner beyond at the same
@@ -277,16 +225,12 @@ void LocalPolygons::emitEdge(const Corner& c, const VertexArray& here, const Ver
   const Index beyond = nextCorner(base.mesh, base.adjacency, twin);
   const bool strip = vertices_.hasVFace(c.slot());
   if (!strip && twin < c.number) return;
-  setAcrossR(c, beyond);
+  other_.set(vertices_.acrossR(c), depths_[beyond]);
   if (strip) stitch(sideOfR(here), sideOfL(other_), pieces);
   if (twin < c.number) return;
-  setAcrossRFromNext(c, twin);
-  row_.clear();
-  row_.addCornerL(next);
-  row_.addCornerR(here);
-  row_.addCornerL(other_);
-  row_.addCornerR(otherFar_);
-  pieces.addPolygon(row_);
+  otherFar_.set(vertices_.acrossRFromNext(c), depths_[twin]);
+  pieces.addPolygon(
+      std::array{next.cornerL(), here.cornerR(), other_.cornerL(), otherFar_.cornerR()});
 }
 
 /// Emits the strips to the boundary points of a boundary edge, and the half E-face between them.
@@ -294,19 +238,11 @@ void LocalPolygons::emitBoundaryEdge(const Corner& c, const VertexArray& here,
                                      const VertexArray& next, PolygonPieces& pieces) {
   const CurvePoints start = vertices_.curveAcrossR(c);
   const CurvePoints end = vertices_.curveAcrossL(c.next());
-  stitch(sideOfR(here),
-         {here.depth().u,
-          [&](std::int64_t first, PointRow& row) { setPointsAcrossR(here, start, first, row); }},
-         pieces);
-  stitch({next.depth().v,
-          [&](std::int64_t first, PointRow& row) { setPointsAcrossL(next, end, first, row); }},
-         sideOfL(next), pieces);
-  row_.clear();
-  row_.addCornerL(next);
-  row_.addCornerR(here);
-  addPointAcrossR(here, start, here.sizeU() - 1, row_);
-  addPointAcrossL(next, end, next.sizeV() - 1, row_);
-  pieces.addPolygon(row_);
+  stitch(sideOfR(here), boundaryRow(start, here.depth().u, true), pieces);
+  stitch(boundaryRow(end, next.depth().v, false), sideOfL(next), pieces);
+  pieces.addPolygon(std::array{next.cornerL(), here.cornerR(),
+                               onCurve(start, here.sizeU() - 1, here.sizeU()),
+                               onCurve(end, 0, next.sizeV())});
 }
 
 /// Emits the V-face or half V-face of a fan, given its first corner.
@@ -315,19 +251,22 @@ void LocalPolygons::emitVFace(const Corner& c, PolygonPieces& pieces) {
   const Index number = vertices_.images().vFaceNumber(c.slot());
   const LocalImages::VFace& vFace = vertices_.images().vFaces()[number];
   row_.clear();
-  PointRow atStart = row_.ofSize(0);
   Index corner = c.number;
+  Index last = corner;
   for (Index place = 0; place < vFace.fan; ++place) {
-    setInVFace(number, place, corner);
-    row_.addCornerVFace(other_);
-    const Vec3d& unknown = vFace.mEnd;
-    if (!vFace.closed && place == 0)
-      addPointAcrossR(other_, {vFace.mEnd, vFace.mStart, unknown}, 0, atStart);
-    if (!vFace.closed && place + 1 == vFace.fan)
-      addPointAcrossL(other_, {unknown, vFace.mEnd, vFace.mStart}, 0, row_);
+    const bool quad = base.mesh.faceSize(base.adjacency.cornerFace[corner]) == 4;
+    other_.set(vertices_.inVFace(number, place, quad), depths_[corner]);
+    row_.push_back(other_.cornerVFace());
+    last = corner;
     corner = nextAroundVertex(base.mesh, base.adjacency, corner);
   }
-  row_.add(atStart);
+  if (!vFace.closed) {
+    const Vec3d& unknown = vFace.mEnd;
+    const std::int64_t startSize = std::int64_t{1} << depths_[c.number].u;
+    const std::int64_t endSize = std::int64_t{1} << depths_[last].v;
+    row_.push_back(onCurve({unknown, vFace.mEnd, vFace.mStart}, endSize - 1, endSize));
+    row_.push_back(onCurve({vFace.mEnd, vFace.mStart, unknown}, 0, startSize));
+  }
   pieces.addPolygon(row_);
 }
 

@@ -33,8 +33,7 @@ class LocalPolygons {
   void findDepths(std::span<const Index> faces, const DepthRule& rule,
                   std::span<VertexDepth> depths);
 
-  /// Gives the sink the polygons that some faces own. With normals it costs more, because the faces
-  /// beyond the submesh are then subdivided, too.
+  /// Gives the sink the polygons that some faces own.
   /// @param faces   the span must stay valid until the next call
   /// @param depths  one per corner of the base mesh; u = v for irregular vertices
   /// @param rule    if not null, a block of the array of an irregular vertex gets only the vertices
@@ -57,9 +56,6 @@ class LocalPolygons {
                         PolygonPieces& pieces);
   void emitVFace(const Corner& corner, PolygonPieces& pieces);
   void setArray(const Corner& corner, VertexArray& array, bool& whole);
-  void setAcrossR(const Corner& corner, Index beyond);
-  void setAcrossRFromNext(const Corner& corner, Index twin);
-  void setInVFace(Index number, Index place, Index corner);
 
   LocalVertices vertices_;
   std::span<const VertexDepth> depths_;
@@ -67,8 +63,8 @@ class LocalPolygons {
   VertexArray here_, next_, other_, otherFar_;
   VertexArray inner_;                // the vertices within a block
   std::vector<VertexDepth> within_;  // depths within the blocks of an array
-  PointRow polygon_;
-  PointRow row_;
+  std::vector<Vec3d> polygon_;
+  std::vector<Vec3d> row_;
 };
 
 }  // namespace vox

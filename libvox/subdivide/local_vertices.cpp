@@ -7,59 +7,6 @@
 namespace vox {
 
 void LocalVertices::set(std::span<const Index> faces) {
-  keepsLevels_ = false;
-  load(faces);
-}
-
-void LocalVertices::setWithNeighbours(std::span<const Index> faces) {
-  const SubdivisionLevel& base = images_.base();
-  isLoaded_.resize(base.mesh.faceCount());
-  isVisited_.resize(base.mesh.pointCount());
-  std::swap(loaded_, loadedBefore_);  // images_ still refers to the old list
-  loaded_.clear();
-  for (const Index f : faces) addNeighbour(f);
-  for (const Index f : faces)
-    for (Index c = base.mesh.faceOffsets[f]; c < base.mesh.faceOffsets[f + 1]; ++c)
-      if (const Index twin = base.adjacency.twin[c]; twin != kNone)
-        addNeighbour(base.adjacency.cornerFace[twin]);
-  addFansFrom(faces);
-  for (const Index f : loaded_) isLoaded_[f] = false;
-
-  keepsLevels_ = true;
-  load(loaded_);
-  levelsAt_.assign(images_.ownSlots(), kNone);
-  opened_ = 0;
-}
-
-void LocalVertices::addNeighbour(Index face) {
-  if (isLoaded_[face]) return;
-  isLoaded_[face] = true;
-  loaded_.push_back(face);
-}
-
-/// Adds all faces of the fans whose first corner (as in LocalImages) is in one of these faces.
-void LocalVertices::addFansFrom(std::span<const Index> faces) {
-  constexpr std::uint8_t kOwn = 2;
-  const SubdivisionLevel& base = images_.base();
-  for (const Index f : faces) isLoaded_[f] = kOwn;
-  const auto forCorners = [&](auto&& visit) {
-    for (const Index f : faces)
-      for (Index c = base.mesh.faceOffsets[f]; c < base.mesh.faceOffsets[f + 1]; ++c) visit(c);
-  };
-  forCorners([&](Index c) {
-    std::uint8_t& visited = isVisited_[base.mesh.faceVertices[c]];
-    if (visited) return;
-    visited = true;
-    const OneRing ring = oneRing(base.mesh, base.adjacency, c);
-    const Index first = ring.closed ? *std::min_element(ring.corners.begin(), ring.corners.end())
-                                    : ring.corners.front();
-    if (isLoaded_[base.adjacency.cornerFace[first]] != kOwn) return;
-    for (const Index corner : ring.corners) addNeighbour(base.adjacency.cornerFace[corner]);
-  });
-  forCorners([&](Index c) { isVisited_[base.mesh.faceVertices[c]] = false; });
-}
-
-void LocalVertices::load(std::span<const Index> faces) {
   images_.set(faces);
   openFace_ = shapedFace_ = kNone;
   second_.resize(images_.ownSlots());
@@ -168,22 +115,10 @@ void LocalVertices::splitVFace(const LocalImages::VFace& vFace, Index number, In
   }
 }
 
-/// The levels of a face that is not a quad.
-ExtraordinaryLevels& LocalVertices::levelsOf(const Corner& at) {
-  if (!keepsLevels_) {
-    if (openFace_ != at.first) openFace(at, faceLevels_.front());
-    openFace_ = at.first;
-    return faceLevels_.front();
-  }
-  Index& number = levelsAt_[at.first];
-  if (number != kNone) return faceLevels_[number];
-  number = static_cast<Index>(opened_++);
-  if (faceLevels_.size() < opened_) faceLevels_.emplace_back();
-  openFace(at, faceLevels_[number]);
-  return faceLevels_[number];
-}
-
-void LocalVertices::openFace(const Corner& at, ExtraordinaryLevels& levels) {
+/// Sets faceLevels_ to the levels of the face of a corner. Precondition: the face is not a quad.
+void LocalVertices::openFace(const Corner& at) {
+  if (openFace_ == at.first) return;
+  openFace_ = at.first;
   ExtraordinaryFace face;
   face.reset(at.size);
   Corner c{at.first, 0, at.size, at.number - at.place};
@@ -203,7 +138,7 @@ void LocalVertices::openFace(const Corner& at, ExtraordinaryLevels& levels) {
                            ? TriangleImages(images_.image(c.slot()), vFace.mStart, vFace.mEnd).u
                            : vFaceSecond_[vFace.begin + images_.placeInVFace(c.slot())];
   }
-  levels.start(std::move(face));
+  faceLevels_.start(std::move(face));
 }
 
 LevelOneVertex LocalVertices::at(const Corner& c) {
@@ -230,7 +165,8 @@ LevelOneVertex LocalVertices::at(const Corner& c) {
   if (vertex.quadF) {
     split.fOpposite = second_[c.first + (c.place ^ 2U)];
   } else {
-    vertex.levelsOfF = &levelsOf(c);
+    openFace(c);
+    vertex.levelsOfF = &faceLevels_;
     vertex.placeInF = c.place;
   }
   return vertex;

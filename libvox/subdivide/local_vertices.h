@@ -4,7 +4,6 @@
 #include "libvox/subdivide/local_images.h"
 #include "libvox/subdivide/vertex_array.h"
 
-#include <deque>
 #include <span>
 #include <vector>
 
@@ -21,14 +20,10 @@ class LocalVertices {
   /// Replaces the submesh. Cost as LocalImages::set.
   /// @param faces  of the base; the span must stay valid until the next call
   void set(std::span<const Index> faces);
-  /// Replaces the submesh and loads further faces: those across its edges, and all faces of the
-  /// fans that begin in it. at() then accepts all corners of loaded faces, and its vertices stay
-  /// valid until the next call.
-  void setWithNeighbours(std::span<const Index> faces);
 
   const LocalImages& images() const { return images_; }
 
-  /// A corner of a loaded face.
+  /// A corner of the submesh.
   struct Corner {
     Index first;   ///< slot of the first corner of the face (LocalImages)
     Index place;   ///< of the corner in the face
@@ -45,19 +40,11 @@ class LocalVertices {
     }
   };
 
-  /// The corner of a loaded face with a number in the base mesh.
-  Corner cornerOf(Index number) const {
-    const SubdivisionLevel& base = images_.base();
-    const Index f = base.adjacency.cornerFace[number];
-    return {images_.firstSlot(f), number - base.mesh.faceOffsets[f], base.mesh.faceSize(f), number};
-  }
-
   /// The level-1 vertex of a corner. Its pointers are valid until at() is called for a corner of
-  /// another face (or as setWithNeighbours says).
+  /// another face.
   LevelOneVertex at(const Corner& corner);
 
-  // Level-1 vertices of faces that need not be loaded. Only some of the faces around them are
-  // known:
+  // Level-1 vertices of faces beyond the submesh. Only some of the faces around them are known:
 
   /// The neighbour across R of the vertex of a corner, at the same base vertex. Known are its
   /// V-face and its L, which is the R of the corner.
@@ -85,9 +72,6 @@ class LocalVertices {
   }
 
  private:
-  void load(std::span<const Index> faces);
-  void addFansFrom(std::span<const Index> faces);
-  void addNeighbour(Index face);
   void prepareVFaces();
   void surroundVFaces(std::vector<ExtraordinaryFace>& faces) const;
   Index sizeOfVFace(const LocalImages::VFace& vFace) const {
@@ -96,8 +80,7 @@ class LocalVertices {
   Patch patchAt(const Corner& corner) const;
   void splitVFace(const LocalImages::VFace& vFace, Index number, Index place,
                   LevelOneVertex& vertex);
-  ExtraordinaryLevels& levelsOf(const Corner& corner);
-  void openFace(const Corner& corner, ExtraordinaryLevels& levels);
+  void openFace(const Corner& corner);
   void shapeVFace(Index number);
 
   LocalImages images_;
@@ -107,19 +90,10 @@ class LocalVertices {
   std::vector<ExtraordinaryLevels> vFaceLevels_;
   std::vector<FaceShape> vFaceShapes_;
   std::vector<std::uint8_t> vFaceShaped_;
-  // Levels of faces that are not quads: of one face at a time; with neighbours, of all that at()
-  // has used.
-  std::deque<ExtraordinaryLevels> faceLevels_ = std::deque<ExtraordinaryLevels>(1);
-  Index openFace_ = kNone;       // first slot of the face in faceLevels_[0]
-  bool keepsLevels_ = false;     // true: of all faces
-  std::vector<Index> levelsAt_;  // by first slot: index in faceLevels_, or kNone
-  std::size_t opened_ = 0;
+  ExtraordinaryLevels faceLevels_;  // of the last face that is not a quad
+  Index openFace_ = kNone;          // its first slot
   FaceShape faceShape_;
   Index shapedFace_ = kNone;
-  // For setWithNeighbours:
-  std::vector<Index> loaded_, loadedBefore_;
-  std::vector<std::uint8_t> isLoaded_;   // per face of the base
-  std::vector<std::uint8_t> isVisited_;  // per vertex
 };
 
 }  // namespace vox

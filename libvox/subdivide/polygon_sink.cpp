@@ -3,6 +3,7 @@
 #include "libvox/subdivide/polygon_sink.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace vox {
 
@@ -17,10 +18,9 @@ void ArrayTiles::emit(std::int64_t tile, PolygonSink& sink) const {
   const auto width =
       static_cast<std::size_t>(std::min(beginV + kSide + 1, array_->sizeV()) - beginV);
   PolygonPieces pieces(sink);
-  PointRow row(pieces.wantsNormals());
-  row.resize(width);
+  std::vector<Vec3d> row(width);
   for (std::int64_t i = beginU; i < endU; ++i) {
-    row.setAlongV(*array_, i, beginV);
+    array_->alongV(i, beginV, row);
     const Index here = pieces.addPoints(row);
     if (i == beginU) continue;
     const Index before = here - static_cast<Index>(width);
@@ -30,24 +30,22 @@ void ArrayTiles::emit(std::int64_t tile, PolygonSink& sink) const {
   pieces.flush();
 }
 
-Index PolygonPieces::addPoints(const PointRow& row) {
+Index PolygonPieces::addPoints(std::span<const Vec3d> points) {
   const Index first = piece_.pointCount();
-  piece_.points.insert(piece_.points.end(), row.points.begin(), row.points.end());
-  normals_.insert(normals_.end(), row.normals.begin(), row.normals.end());
+  piece_.points.insert(piece_.points.end(), points.begin(), points.end());
   return first;
 }
 
-void PolygonPieces::addPolygon(const PointRow& row) {
-  const Index first = addPoints(row);
-  for (Index i = 0; i < row.points.size(); ++i) piece_.faceVertices.push_back(first + i);
+void PolygonPieces::addPolygon(std::span<const Vec3d> points) {
+  const Index first = addPoints(points);
+  for (Index i = 0; i < points.size(); ++i) piece_.faceVertices.push_back(first + i);
   piece_.faceOffsets.push_back(piece_.cornerCount());
   breathe();
 }
 
 void PolygonPieces::flush() {
-  if (piece_.faceCount() > 0) sink_.polygons(piece_, normals_);
+  if (piece_.faceCount() > 0) sink_.polygons(piece_);
   piece_.points.clear();
-  normals_.clear();
   piece_.faceVertices.clear();
   piece_.faceOffsets.assign(1, 0);
 }
@@ -57,11 +55,11 @@ void stitch(const SideRow& a, const SideRow& b, PolygonPieces& pieces) {
   const int log2More = std::max(a.log2Size, b.log2Size);
   const int downA = log2More - a.log2Size;
   const int downB = log2More - b.log2Size;
-  PointRow row(pieces.wantsNormals());
+  std::vector<Vec3d> points;
   const auto add = [&](const SideRow& side, std::int64_t first, std::int64_t last) {
-    row.resize(static_cast<std::size_t>(last - first + 1));
-    side.set(first, row);
-    return pieces.addPoints(row);
+    points.resize(static_cast<std::size_t>(last - first + 1));
+    side.set(first, points);
+    return pieces.addPoints(points);
   };
   const std::int64_t edges = (std::int64_t{1} << log2More) - 1;
   for (std::int64_t begin = 0; begin < edges; begin += kEdges) {

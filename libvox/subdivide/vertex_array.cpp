@@ -21,48 +21,6 @@ Patch pointPatch(const Vec3d& point) {
   return patch;
 }
 
-/// A patch that gives the normal at a point: the tangent plane of the surface at the limit point,
-/// which is the centroid of the V-face of the point. The bimedians of this quad span the plane; the
-/// first harmonic of Doo-Sabin keeps it.
-Patch tangentPatch(const Vec3d& point, const VertexSplit& split) {
-  // The points of the V-face are in the patch of the child in F; missing ones are continued.
-  const Patch child = continued(split.childInF());
-  const auto& p = child.points;
-  const Vec3d along = (p[1][1] - p[0][0]) / 2.0;
-  const Vec3d across = (p[0][1] - p[1][0]) / 2.0;
-  Patch patch;
-  for (std::size_t u = 0; u < 3; ++u)
-    for (std::size_t v = 0; v < 3; ++v)
-      patch.points[u][v] = point + (static_cast<double>(u) - 1) * (along - across) +
-                           (static_cast<double>(v) - 1) * (along + across);
-  patch.points[1][1] = point;
-  return patch;
-}
-
-/// Sets the normals of those vertices, from column `first` on, that lie in a block.
-void normalsOfBlockAlongV(const VertexArray::Block& block, SplinePlace u, std::int64_t first,
-                          std::span<Vec3d> normals) {
-  const auto end = std::min(first + static_cast<std::int64_t>(normals.size()), block.endV());
-  const std::int64_t begin = std::max(first, block.v);
-  if (begin >= end) return;
-  const LimitNormals row(continued(block.patch), u);
-  for (std::int64_t j = begin; j < end; ++j)
-    normals[static_cast<std::size_t>(j - first)] =
-        row.at(SplinePlace::ofVertex(j - block.v, block.sizeV()));
-}
-
-/// Sets the normals of those vertices, from row `first` on, that lie in a block.
-void normalsOfBlockAlongU(const VertexArray::Block& block, SplinePlace v, std::int64_t first,
-                          std::span<Vec3d> normals) {
-  const auto end = std::min(first + static_cast<std::int64_t>(normals.size()), block.endU());
-  const std::int64_t begin = std::max(first, block.u);
-  if (begin >= end) return;
-  const Patch patch = continued(block.patch);
-  for (std::int64_t i = begin; i < end; ++i)
-    normals[static_cast<std::size_t>(i - first)] =
-        LimitNormals(patch, SplinePlace::ofVertex(i - block.u, block.sizeU())).at(v);
-}
-
 }  // namespace
 
 LevelOneVertex::LevelOneVertex() {
@@ -73,15 +31,12 @@ LevelOneVertex::LevelOneVertex() {
   split.l.fill(unknown);
 }
 
-void VertexArray::set(const LevelOneVertex& vertex, VertexDepth depth, bool normals) {
+void VertexArray::set(const LevelOneVertex& vertex, VertexDepth depth) {
   if (vertex.regular) return set(vertex.patch, depth);
   depth_ = depth;
-  normals_ = normals;
   blocks_.clear();
   const int k = depth.u;
-  if (k == 0)
-    return addPoint(
-        vertex.at, [&] { return vertex.split; }, 0, 0);
+  if (k == 0) return addPoint(vertex.at, 0, 0);
   const std::int64_t half = std::int64_t{1} << (k - 1);
   add(vertex.split.childInR(), half, 0, k - 1);
   add(vertex.split.childInL(), 0, half, k - 1);
@@ -103,19 +58,15 @@ void VertexArray::add(const Patch& patch, std::int64_t u, std::int64_t v, int k)
 }
 
 /// Adds a block of one irregular vertex.
-/// @param split  returns the step at the vertex, from which its normal is computed
-template <class Split>
-void VertexArray::addPoint(const Vec3d& point, Split&& split, std::int64_t u, std::int64_t v) {
-  add(normals_ ? tangentPatch(point, split()) : pointPatch(point), u, v, 0);
+void VertexArray::addPoint(const Vec3d& point, std::int64_t u, std::int64_t v) {
+  add(pointPatch(point), u, v, 0);
 }
 
 /// Adds the blocks of a corner of an extraordinary F of level 2, from row u and column v on.
 void VertexArray::addInF(ExtraordinaryLevels& levels, std::size_t place, std::int64_t u,
                          std::int64_t v, int k) {
   for (int l = 0;; ++l, --k) {
-    if (k == 0)
-      return addPoint(
-          levels.level(l).face.inner[place], [&] { return levels.split(l, place); }, u, v);
+    if (k == 0) return addPoint(levels.level(l).face.inner[place], u, v);
     const std::int64_t half = std::int64_t{1} << (k - 1);
     const VertexSplit split = levels.split(l, place);
     add(split.childInR(), u + half, v, k - 1);
@@ -130,10 +81,7 @@ void VertexArray::addInF(ExtraordinaryLevels& levels, std::size_t place, std::in
 /// patches are turned by half a turn, because u and v fall towards the V-face.
 void VertexArray::addInVFace(ExtraordinaryLevels& levels, std::size_t place, int k) {
   for (int l = 0;; ++l, --k) {
-    // Half a turn does not change the normal of the tangent plane.
-    if (k == 0)
-      return addPoint(
-          levels.level(l).face.inner[place], [&] { return levels.split(l, place); }, 0, 0);
+    if (k == 0) return addPoint(levels.level(l).face.inner[place], 0, 0);
     const std::int64_t half = std::int64_t{1} << (k - 1);
     const VertexSplit split = levels.split(l, place);
     add(turned(split.childInR()), 0, half, k - 1);
@@ -151,8 +99,7 @@ void VertexArray::addInCorner(BoundaryCorner corner, int k) {
     add(split.childInF(), half, half, k - 1);
     corner = corner.below(split);
   }
-  addPoint(
-      corner.u, [&] { return corner.split(); }, 0, 0);
+  addPoint(corner.u, 0, 0);
 }
 
 void VertexArray::alongV(std::int64_t i, std::int64_t first, std::span<Vec3d> points) const {
@@ -180,34 +127,6 @@ void VertexArray::alongU(std::int64_t j, std::int64_t first, std::span<Vec3d> po
       points[static_cast<std::size_t>(i - first)] = v(row[0], row[1], row[2]);
     }
   }
-}
-
-void VertexArray::normalsAlongV(std::int64_t i, std::int64_t first,
-                                std::span<Vec3d> normals) const {
-  for (const Block& block : blocks_)
-    if (i >= block.u && i < block.endU())
-      normalsOfBlockAlongV(block, SplinePlace::ofVertex(i - block.u, block.sizeU()), first,
-                           normals);
-}
-
-void VertexArray::normalsAlongU(std::int64_t j, std::int64_t first,
-                                std::span<Vec3d> normals) const {
-  for (const Block& block : blocks_)
-    if (j >= block.v && j < block.endV())
-      normalsOfBlockAlongU(block, SplinePlace::ofVertex(j - block.v, block.sizeV()), first,
-                           normals);
-}
-
-// With the mirror image of the surface beyond it, the boundary is where patches end: parameter 0.
-
-void VertexArray::normalsAcrossR(std::int64_t first, std::span<Vec3d> normals) const {
-  for (const Block& block : blocks_)
-    if (block.v == 0) normalsOfBlockAlongU(block, {0}, first, normals);
-}
-
-void VertexArray::normalsAcrossL(std::int64_t first, std::span<Vec3d> normals) const {
-  for (const Block& block : blocks_)
-    if (block.u == 0) normalsOfBlockAlongV(block, {0}, first, normals);
 }
 
 }  // namespace vox

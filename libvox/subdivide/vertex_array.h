@@ -61,9 +61,8 @@ struct LevelOneVertex {
 /// same way, so that it always has the same bits. Several threads may read an array.
 class VertexArray {
  public:
-  /// A block: its patch, first row and column, and depth. A block of one irregular vertex has a
-  /// patch that only gives its point and, with normals, the tangent plane; so normals have the same
-  /// closed form in every block.
+  /// A block: its patch, first row and column, and depth. All control points of a block of one
+  /// irregular vertex are this vertex.
   struct Block {
     Patch patch;
     std::int64_t u, v;
@@ -75,10 +74,8 @@ class VertexArray {
   };
 
   /// Sets the array of a level-1 vertex.
-  /// @param depth    u = v for an irregular vertex
-  /// @param normals  whether the functions for normals will be used; then all points around the
-  ///   vertex must be known
-  void set(const LevelOneVertex& vertex, VertexDepth depth, bool normals = false);
+  /// @param depth  u = v for an irregular vertex
+  void set(const LevelOneVertex& vertex, VertexDepth depth);
   /// Sets the array of a regular vertex of any level.
   void set(const Patch& patch, VertexDepth depth) {
     depth_ = depth;
@@ -103,21 +100,6 @@ class VertexArray {
     return point;
   }
 
-  /// Exact normals of the smooth surface at the limit points of the same vertices: unit, outward; 0
-  /// if there is none.
-  void normalsAlongV(std::int64_t i, std::int64_t first, std::span<Vec3d> normals) const;
-  void normalsAlongU(std::int64_t j, std::int64_t first, std::span<Vec3d> normals) const;
-  Vec3d normalAt(std::int64_t i, std::int64_t j) const {
-    Vec3d normal;
-    normalsAlongV(i, j, {&normal, 1});
-    return normal;
-  }
-  /// For a vertex beside the boundary of an extended surface: the normals on the boundary itself,
-  /// across R from the vertices (i, 0), i = first, first + 1, ..., and across L from the vertices
-  /// (0, j). Beside a block of one irregular vertex it is the normal of this vertex.
-  void normalsAcrossR(std::int64_t first, std::span<Vec3d> normals) const;
-  void normalsAcrossL(std::int64_t first, std::span<Vec3d> normals) const;
-
   Vec3d cornerF() const { return at(sizeU() - 1, sizeV() - 1); }
   Vec3d cornerVFace() const { return at(0, 0); }
   Vec3d cornerR() const { return at(sizeU() - 1, 0); }
@@ -125,15 +107,13 @@ class VertexArray {
 
  private:
   void add(const Patch& patch, std::int64_t u, std::int64_t v, int k);
-  template <class Split>
-  void addPoint(const Vec3d& point, Split&& split, std::int64_t u, std::int64_t v);
+  void addPoint(const Vec3d& point, std::int64_t u, std::int64_t v);
   void addInF(ExtraordinaryLevels& levels, std::size_t place, std::int64_t u, std::int64_t v,
               int k);
   void addInVFace(ExtraordinaryLevels& levels, std::size_t place, int k);
   void addInCorner(BoundaryCorner corner, int k);
 
   VertexDepth depth_;
-  bool normals_ = false;
   std::vector<Block> blocks_;
 };
 
