@@ -42,17 +42,6 @@ double diameterAround(const ExtraordinaryFace& face, std::size_t i) {
   return size;
 }
 
-/// Sets the surroundings of corner i one level down, from one step at this corner.
-void descend(const VertexSplit& split, std::size_t i, ExtraordinaryFace& next) {
-  const std::size_t j = next.before(i);
-  next.near[i] = split.r[0];
-  next.far[i] = split.r[1];
-  next.near[j] = split.l[1];
-  next.far[j] = split.l[0];
-  next.corner[i] = split.vFace0;
-  next.active[i] = true;
-}
-
 }  // namespace
 
 void ExtraordinaryFace::reset(std::size_t n) {
@@ -61,6 +50,16 @@ void ExtraordinaryFace::reset(std::size_t n) {
   hasEdge.assign(n, true);
   hasCorner.assign(n, true);
   real = n;
+}
+
+void ExtraordinaryFace::join(std::size_t i, const VertexSplit& split) {
+  const std::size_t j = before(i);
+  near[i] = split.r[0];
+  far[i] = split.r[1];
+  near[j] = split.l[1];
+  far[j] = split.l[0];
+  corner[i] = split.vFace0;
+  active[i] = true;
 }
 
 VertexSplit ExtraordinaryFace::splitAt(std::span<const Vec3d> images, std::size_t i) const {
@@ -116,7 +115,7 @@ void ExtraordinarySubdivision::run(ExtraordinaryFace& face, int level, SurfaceSi
       }
       split.emitSides(level + 1, sink);
       split.emitInVFace(level + 1, sink);
-      descend(split, i, next_);
+      next_.join(i, split);
       done = false;
     }
     if (!finished_.empty()) sink.points(finished_, level);
@@ -134,6 +133,17 @@ void TriangleImages::setVFace(VertexSplit& split) const {
   split.vFace0 = u;
   split.vFaceRight = mirrored(u, mStart);
   split.vFaceLeft = mirrored(u, mEnd);
+}
+
+BoundaryCorner TriangleImages::below(const VertexSplit& split) const {
+  return {u,
+          mStart,
+          mEnd,
+          split.r[0],
+          middle(split.r[0], split.r[3]),
+          split.l[0],
+          middle(split.l[0], split.l[3]),
+          split.f0};
 }
 
 VertexSplit BoundaryCorner::split() const {

@@ -35,6 +35,9 @@ struct ExtraordinaryFace {
   std::size_t after(std::size_t i) const { return i + 1 == inner.size() ? 0 : i + 1; }
   /// Whether the polygon has a mirrored half. The real half ends at the midpoints of two edges.
   bool mirrored() const { return real < inner.size(); }
+  /// Sets the surroundings of corner i, which becomes active, from the step that makes this corner
+  /// as its child in F.
+  void join(std::size_t i, const VertexSplit& split);
   /// One step at corner i, with the polygon as F.
   /// @param images  image vertices of the polygon
   VertexSplit splitAt(std::span<const Vec3d> images, std::size_t i) const;
@@ -85,6 +88,8 @@ struct TriangleImages {
   /// Sets the images in the V-face, with T in its place: u', and its mirror images beyond the
   /// boundary.
   void setVFace(VertexSplit& split) const;
+  /// u as a vertex of level 2, given the step at the level-1 vertex with T in place of its V-face.
+  BoundaryCorner below(const VertexSplit& split) const;
 };
 
 /// Gives the sink all descendants of u, a vertex of `level`, each at the level at which it is fine

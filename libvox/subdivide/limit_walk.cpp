@@ -131,11 +131,11 @@ void LimitWalk::emitFace(Index face, Index firstSlot, LimitSink& sink) {
   if (size != 4) subdivideFace();
   joined_ = false;
   for (Index i = 0; i < size; ++i) {
-    const Corner at{firstSlot, i, size, firstNumber + i};
+    const Corner at{{firstSlot, i, size}, firstNumber + i};
     const Patch patch = patchAt(at);
     const Index vFaceSize = images_.vFace(at.slot()).size;
     bool fine = size == 4 || errorAsQuad(patch, true, facePoints_[i], size) <= tolerance_;
-    if (fine && hasVFace(at) && vFaceSize != 4) {
+    if (fine && images_.hasVFace(at.slot()) && vFaceSize != 4) {
       const Index number = images_.vFaceNumber(at.slot());
       subdivideVFace(number);
       fine = vFaceSize > 1 &&
@@ -154,10 +154,6 @@ void LimitWalk::emitFace(Index face, Index firstSlot, LimitSink& sink) {
   if (joined_) emitAround(around_, sink);
 }
 
-bool LimitWalk::hasVFace(const Corner& at) const {
-  return images_.vFace(at.slot()).closed || images_.extends();
-}
-
 /// The patch of a level-1 vertex. Faces around it that are not quads are treated as quads.
 Patch LimitWalk::patchAt(const Corner& at) const {
   const LocalImages::VFace& vFace = images_.vFace(at.slot());
@@ -172,12 +168,12 @@ Patch LimitWalk::patchAt(const Corner& at) const {
                                             centre, next, previous);
   const auto vFacePoints = std::span(images_.vFacePoints()).subspan(vFace.begin, vFace.size);
   Vec3d beyond = centre;
-  if (hasVFace(at) && vFace.size == 4)
+  if (images_.hasVFace(at.slot()) && vFace.size == 4)
     beyond = vFacePoints[images_.placeInVFace(at.slot()) ^ 2U];
-  else if (hasVFace(at) && vFace.size > 1)
+  else if (images_.hasVFace(at.slot()) && vFace.size > 1)
     beyond = fourthCorner(centroidOf(vFacePoints), centre, left.near, right.near);
-  const unsigned quadrants =
-      8U | (right.exists ? 4U : 0U) | (left.exists ? 2U : 0U) | (hasVFace(at) ? 1U : 0U);
+  const unsigned quadrants = 8U | (right.exists ? 4U : 0U) | (left.exists ? 2U : 0U) |
+                             (images_.hasVFace(at.slot()) ? 1U : 0U);
   return {{{{beyond, left.far, left.near},
             {right.near, centre, previous},
             {right.far, next, opposite}}},
@@ -210,19 +206,8 @@ void LimitWalk::subdivideVFace(Index number) {
 /// One step at a level-1 vertex. Emits the children that are regular; the others become active
 /// corners of the face or the V-face in which they lie.
 void LimitWalk::split(const Corner& at, LimitSink& sink) {
-  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
-  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
   const LocalImages::VFace& vFace = images_.vFace(at.slot());
-  const Vec3d& centre = images_.image(at.slot());
-  VertexSplit split;
-  split.f0 = facePoints_[at.place];
-  split.fNext = facePoints_[at.next() - at.first];
-  split.fPrevious = facePoints_[at.previous() - at.first];
-  if (at.size == 4) split.fOpposite = facePoints_[at.opposite() - at.first];
-  split.r = quadImages(centre, images_.image(at.next()), right.far, right.near);
-  split.l = quadImages(centre, images_.image(at.previous()), left.near, left.far);
-  split.hasR = right.exists;
-  split.hasL = left.exists;
+  VertexSplit split = images_.splitAt(at, facePoints_);
   splitInVFace(at, split);
 
   const std::uint8_t sides = boundarySidesAt(at);
@@ -241,16 +226,14 @@ void LimitWalk::split(const Corner& at, LimitSink& sink) {
   } else if (vFace.size > 1) {
     joinVFace(at, split);
   } else {
-    const TriangleImages t(centre, vFace.mStart, vFace.mEnd);
-    emitBoundaryCorner({split.vFace0, t.mStart, t.mEnd, split.r[0], middle(split.r[0], split.r[3]),
-                        split.l[0], middle(split.l[0], split.l[3]), split.f0},
-                       inVFace, sink);
+    const TriangleImages t(images_.image(at.slot()), vFace.mStart, vFace.mEnd);
+    emitBoundaryCorner(t.below(split), inVFace, sink);
   }
 }
 
 /// Sets the images in the V-face.
 void LimitWalk::splitInVFace(const Corner& at, VertexSplit& split) {
-  split.hasVFace = hasVFace(at);
+  split.hasVFace = images_.hasVFace(at.slot());
   if (!split.hasVFace) return;
   const Index number = images_.vFaceNumber(at.slot());
   const LocalImages::VFace& vFace = images_.vFaces()[number];
@@ -274,15 +257,10 @@ void LimitWalk::joinFace(const Corner& at, const VertexSplit& split) {
   }
   const std::size_t i = at.place;
   const std::size_t j = at.previous() - at.first;
-  around_.near[i] = split.r[0];
-  around_.far[i] = split.r[1];
-  around_.near[j] = split.l[1];
-  around_.far[j] = split.l[0];
-  around_.corner[i] = split.vFace0;
+  around_.join(i, split);
   around_.hasEdge[i] = split.hasR;
   around_.hasEdge[j] = split.hasL;
   around_.hasCorner[i] = split.hasR && split.hasL && split.hasVFace;
-  around_.active[i] = true;
   places_[i] = {at.square().quarter(true, true), only(boundarySidesAt(at), kSidesInF)};
 }
 
@@ -349,13 +327,11 @@ void LimitWalk::emitAround(ExtraordinaryFace& face, LimitSink& sink) {
       if (!face.active[i]) continue;
       auto& [square, sides] = places_[i];
       const Patch patch = asQuad(i);
-      next_.active[i] = errorAsQuad(patch, true, innerImages_[i], n) > tolerance_;
-      if (!next_.active[i]) {
+      if (!(errorAsQuad(patch, true, innerImages_[i], n) > tolerance_)) {
         emitPiece(patch, sides, square, sink);
         continue;
       }
       done = false;
-      const std::size_t j = face.before(i);
       const VertexSplit split = face.splitAt(innerImages_, i);
       if (split.hasR)
         emitPiece(split.childInR(), only(sides, kSidesInR), square.quarter(true, false), sink);
@@ -363,11 +339,7 @@ void LimitWalk::emitAround(ExtraordinaryFace& face, LimitSink& sink) {
         emitPiece(split.childInL(), only(sides, kSidesInL), square.quarter(false, true), sink);
       if (split.hasVFace) emitPiece(split.childInVFace(), 0, square.quarter(false, false), sink);
       square = square.quarter(true, true);
-      next_.near[i] = split.r[0];
-      next_.far[i] = split.r[1];
-      next_.near[j] = split.l[1];
-      next_.far[j] = split.l[0];
-      next_.corner[i] = split.vFace0;
+      next_.join(i, split);
     }
     if (done) return;
     next_.inner = innerImages_;

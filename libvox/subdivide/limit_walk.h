@@ -39,21 +39,12 @@ class LimitWalk {
   void emit(std::span<const Index> faces, LimitSink& sink);
 
  private:
-  /// A corner of a face of the submesh, by slots.
-  struct Corner {
-    Index first;   // of the face
-    Index place;   // in the face
-    Index size;    // of the face
+  struct Corner : SlotCorner {
     Index number;  // in the base mesh
-    Index slot() const { return first + place; }
-    Index next() const { return place + 1 == size ? first : first + place + 1; }
-    Index previous() const { return (place == 0 ? first + size : first + place) - 1; }
-    Index opposite() const { return first + (place ^ 2U); }  // in a quad
     CornerSquare square() const { return {number}; }
   };
 
   void emitFace(Index face, Index firstSlot, LimitSink& sink);
-  bool hasVFace(const Corner& at) const;
   Patch patchAt(const Corner& at) const;
   std::uint8_t boundarySidesAt(const Corner& at) const;
   void subdivideVFace(Index number);

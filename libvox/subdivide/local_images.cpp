@@ -156,6 +156,37 @@ void LocalImages::addEdge(Index slot, Index next, Index corner) {
                                 : diameter(images_[slot], images_[next], edge.near, edge.far);
 }
 
+Patch LocalImages::patchAt(const SlotCorner& at) const {
+  const EdgeFace& right = edges_[at.slot()];
+  const EdgeFace& left = edges_[at.previous()];
+  const Vec3d& centre = images_[at.slot()];
+  const bool vFaceExists = hasVFace(at.slot());
+  const Vec3d& beyond =
+      vFaceExists ? vFacePoints_[vFace(at.slot()).begin + (placeInVFace_[at.slot()] ^ 2U)] : centre;
+  const unsigned quadrants =
+      (vFaceExists ? 1U : 0U) | (left.exists ? 2U : 0U) | (right.exists ? 4U : 0U) | 8U;
+  return {{{{beyond, left.far, left.near},
+            {right.near, centre, images_[at.previous()]},
+            {right.far, images_[at.next()], images_[at.opposite()]}}},
+          static_cast<std::uint8_t>(quadrants)};
+}
+
+VertexSplit LocalImages::splitAt(const SlotCorner& at, std::span<const Vec3d> inFace) const {
+  const EdgeFace& right = edges_[at.slot()];
+  const EdgeFace& left = edges_[at.previous()];
+  const Vec3d& centre = images_[at.slot()];
+  VertexSplit split;
+  split.f0 = inFace[at.place];
+  split.fNext = inFace[at.next() - at.first];
+  split.fPrevious = inFace[at.previous() - at.first];
+  if (at.size == 4) split.fOpposite = inFace[at.opposite() - at.first];
+  split.r = quadImages(centre, images_[at.next()], right.far, right.near);
+  split.l = quadImages(centre, images_[at.previous()], left.near, left.far);
+  split.hasR = right.exists;
+  split.hasL = left.exists;
+  return split;
+}
+
 /// Sets the mirrored half E-face across a boundary edge of an extended surface.
 void LocalImages::mirrorEdge(Index slot, Index next, Index corner) {
   const PolygonMesh& mesh = base_.mesh;

@@ -2,11 +2,23 @@
 
 #include "libvox/subdivide/face_images.h"
 #include "libvox/subdivide/level.h"
+#include "libvox/subdivide/vertex_split.h"
 
 #include <span>
 #include <vector>
 
 namespace vox {
+
+/// A corner of a face of a submesh, by slots (LocalImages).
+struct SlotCorner {
+  Index first;  ///< slot of the first corner of the face
+  Index place;  ///< of the corner in the face
+  Index size;   ///< number of corners of the face
+  Index slot() const { return first + place; }
+  Index next() const { return place + 1 == size ? first : first + place + 1; }
+  Index previous() const { return (place == 0 ? first + size : first + place) - 1; }
+  Index opposite() const { return first + (place ^ 2U); }  ///< in a quad
+};
 
 /// Level 1 of a submesh: the image vertices of its faces and of the faces of its one-ring, and the
 /// V-faces and E-faces that they form. The base mesh is only read. Work arrays are kept from one
@@ -59,6 +71,14 @@ class LocalImages {
   const VFace& vFace(Index slot) const { return vFaces_[vFaceOf_[slot]]; }
   Index vFaceNumber(Index slot) const { return vFaceOf_[slot]; }
   Index placeInVFace(Index slot) const { return placeInVFace_[slot]; }
+  bool hasVFace(Index slot) const { return vFace(slot).closed || extends(); }
+
+  /// The patch of the level-1 vertex of a corner of the submesh. Precondition: its face is a quad,
+  /// and its V-face a quad or missing.
+  Patch patchAt(const SlotCorner& at) const;
+  /// One step at the level-1 vertex of a corner of the submesh, without the images in the V-face.
+  /// @param inFace  images of the level-1 face of the corner
+  VertexSplit splitAt(const SlotCorner& at, std::span<const Vec3d> inFace) const;
 
   const std::vector<VFace>& vFaces() const { return vFaces_; }
   /// Points of the V-faces, counter-clockwise; an open fan starts at the boundary edge that leaves

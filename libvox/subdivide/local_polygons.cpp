@@ -108,7 +108,7 @@ void LocalPolygons::emitFace(const Corner& first, PolygonPieces& pieces, Polygon
       emitEdge(c, here_, next_, pieces);
     else if (vertices_.images().extends())
       emitBoundaryEdge(c, here_, next_, pieces);
-    if (vertices_.images().placeInVFace(c.slot()) == 0 && vertices_.hasVFace(c.slot()))
+    if (vertices_.images().placeInVFace(c.slot()) == 0 && vertices_.images().hasVFace(c.slot()))
       emitVFace(c, pieces);
   }
   pieces.addPolygon(polygon_);
@@ -223,7 +223,7 @@ void LocalPolygons::emitEdge(const Corner& c, const VertexArray& here, const Ver
   const SubdivisionLevel& base = vertices_.images().base();
   const Index twin = base.adjacency.twin[c.number];
   const Index beyond = nextCorner(base.mesh, base.adjacency, twin);
-  const bool strip = vertices_.hasVFace(c.slot());
+  const bool strip = vertices_.images().hasVFace(c.slot());
   if (!strip && twin < c.number) return;
   other_.set(vertices_.acrossR(c), depths_[beyond]);
   if (strip) stitch(sideOfR(here), sideOfL(other_), pieces);

@@ -39,7 +39,7 @@ void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
   for (Index i = 0; i < size; ++i) {
     const Corner at{firstSlot, i, size};
     if (isRegular(at)) {
-      emitSmall(patchAt(at), 1, finished_, sink);
+      emitSmall(images_.patchAt(at), 1, finished_, sink);
       continue;
     }
     const double largest = diameterAround(at, faceDiameter);
@@ -65,28 +65,10 @@ void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
   if (joined_) extraordinary_.run(around_, 2, sink);
 }
 
-/// The patch of a level-1 vertex in a quad whose V-face is a quad or missing.
-Patch LocalSurface::patchAt(const Corner& at) const {
-  const LocalImages::VFace& vFace = images_.vFace(at.slot());
-  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
-  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
-  const bool hasVFace = vFace.closed || images_.extends();
-  const Vec3d& center = images_.image(at.slot());
-  const Vec3d& beyond =
-      hasVFace ? images_.vFacePoints()[vFace.begin + (images_.placeInVFace(at.slot()) ^ 2U)]
-               : center;
-  const unsigned quadrants =
-      (hasVFace ? 1U : 0U) | (left.exists ? 2U : 0U) | (right.exists ? 4U : 0U);
-  return {{{{beyond, left.far, left.near},
-            {right.near, center, images_.image(at.previous())},
-            {right.far, images_.image(at.next()), images_.image(at.opposite())}}},
-          static_cast<std::uint8_t>(quadrants | 8U)};
-}
-
 bool LocalSurface::isRegular(const Corner& at) const {
   if (at.size != 4) return false;
   const LocalImages::VFace& vFace = images_.vFace(at.slot());
-  return vFace.size == 4 || !(vFace.closed || images_.extends());
+  return vFace.size == 4 || !images_.hasVFace(at.slot());
 }
 
 /// Largest diameter of the faces around a level-1 vertex.
@@ -125,18 +107,7 @@ void LocalSurface::finishChildren(const Corner& at) {
 /// One step at a level-1 vertex. Emits the children that are regular or fine enough; the others
 /// become active corners of the face or the V-face in which they lie.
 void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
-  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
-  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
-  const Vec3d& center = images_.image(at.slot());
-  VertexSplit split;
-  split.f0 = facePoints_[at.place];
-  split.fNext = facePoints_[at.next() - at.first];
-  split.fPrevious = facePoints_[at.previous() - at.first];
-  if (at.size == 4) split.fOpposite = facePoints_[at.opposite() - at.first];
-  split.r = quadImages(center, images_.image(at.next()), right.far, right.near);
-  split.l = quadImages(center, images_.image(at.previous()), left.near, left.far);
-  split.hasR = right.exists;
-  split.hasL = left.exists;
+  VertexSplit split = images_.splitAt(at, facePoints_);
   splitInVFace(at, split);
   const ChildSizes sizes = isInside(at) ? childSizes(split) : kUnknownSizes;
 
@@ -164,10 +135,7 @@ void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
     joinVFace(at, split);
   else if (split.hasVFace)
     subdivideBoundaryCorner(
-        {split.vFace0, TriangleImages(center, vFace.mStart, vFace.mEnd).mStart,
-         TriangleImages(center, vFace.mStart, vFace.mEnd).mEnd, split.r[0],
-         (split.r[0] + split.r[3]) / 2.0, split.l[0], (split.l[0] + split.l[3]) / 2.0, split.f0},
-        2, sink);
+        TriangleImages(images_.image(at.slot()), vFace.mStart, vFace.mEnd).below(split), 2, sink);
 }
 
 /// The V-face of a corner. Computes its points of level 2 if they are not known yet.
@@ -185,15 +153,11 @@ const LocalImages::VFace& LocalSurface::subdividedVFace(const Corner& at) {
 
 /// Sets the images in the V-face.
 void LocalSurface::splitInVFace(const Corner& at, VertexSplit& split) {
-  split.hasVFace = images_.vFace(at.slot()).closed || images_.extends();
+  split.hasVFace = images_.hasVFace(at.slot());
   if (!split.hasVFace) return;
   if (images_.vFace(at.slot()).size == 1) {
     const LocalImages::VFace& vFace = images_.vFace(at.slot());
-    const TriangleImages t(images_.image(at.slot()), vFace.mStart, vFace.mEnd);
-    split.vFace0 = t.u;
-    split.vFaceRight = 2.0 * t.mStart - t.u;
-    split.vFaceLeft = 2.0 * t.mEnd - t.u;
-    return;
+    return TriangleImages(images_.image(at.slot()), vFace.mStart, vFace.mEnd).setVFace(split);
   }
   const LocalImages::VFace& vFace = subdividedVFace(at);
   const Index place = images_.placeInVFace(at.slot());
@@ -212,15 +176,10 @@ void LocalSurface::joinFace(const Corner& at, const VertexSplit& split) {
   }
   const std::size_t i = at.place;
   const std::size_t j = at.previous() - at.first;
-  around_.near[i] = split.r[0];
-  around_.far[i] = split.r[1];
-  around_.near[j] = split.l[1];
-  around_.far[j] = split.l[0];
-  around_.corner[i] = split.vFace0;
+  around_.join(i, split);
   around_.hasEdge[i] = split.hasR;
   around_.hasEdge[j] = split.hasL;
   around_.hasCorner[i] = split.hasR && split.hasL && split.hasVFace;
-  around_.active[i] = true;
 }
 
 /// Makes the corner an active corner of its V-face at level 2. In the V-face the next corner lies

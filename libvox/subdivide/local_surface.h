@@ -33,22 +33,12 @@ class LocalSurface {
   void emit(std::span<const Index> faces, SurfaceSink& sink);
 
  private:
-  /// A corner of a face of the submesh, by slots.
-  struct Corner {
-    Index first;  // of the face
-    Index place;  // in the face
-    Index size;   // of the face
-    Index slot() const { return first + place; }
-    Index next() const { return place + 1 == size ? first : first + place + 1; }
-    Index previous() const { return (place == 0 ? first + size : first + place) - 1; }
-    Index opposite() const { return first + (place ^ 2U); }  // in a quad
-  };
+  using Corner = SlotCorner;
 
   void emitFace(Index firstSlot, Index size, SurfaceSink& sink);
   bool isRegular(const Corner& corner) const;
   double diameterAround(const Corner& corner, double faceDiameter) const;
   bool isInside(const Corner& corner) const;
-  Patch patchAt(const Corner& corner) const;
   static void emitSmall(const Patch& patch, int level, std::vector<Vec3d>& finished,
                         SurfaceSink& sink);
   void finishChildren(const Corner& corner);

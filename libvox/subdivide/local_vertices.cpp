@@ -69,21 +69,6 @@ void LocalVertices::surroundVFaces(std::vector<ExtraordinaryFace>& faces) const 
   }
 }
 
-Patch LocalVertices::patchAt(const Corner& c) const {
-  const LocalImages::VFace& vFace = images_.vFace(c.slot());
-  const LocalImages::EdgeFace& right = images_.edgeFace(c.slot());
-  const LocalImages::EdgeFace& left = images_.edgeFace(c.previous().slot());
-  const bool k = hasVFace(c.slot());
-  const Vec3d& center = images_.image(c.slot());
-  const Vec3d& beyond =
-      k ? images_.vFacePoints()[vFace.begin + (images_.placeInVFace(c.slot()) ^ 2U)] : center;
-  const unsigned quadrants = (k ? 1U : 0U) | (left.exists ? 2U : 0U) | (right.exists ? 4U : 0U);
-  return {{{{beyond, left.far, left.near},
-            {right.near, center, images_.image(c.previous().slot())},
-            {right.far, images_.image(c.next().slot()), images_.image(c.first + (c.place ^ 2U))}}},
-          static_cast<std::uint8_t>(quadrants | 8U)};
-}
-
 /// Sets the part of a vertex that depends on its V-face.
 void LocalVertices::splitVFace(const LocalImages::VFace& vFace, Index number, Index place,
                                LevelOneVertex& vertex) {
@@ -93,14 +78,7 @@ void LocalVertices::splitVFace(const LocalImages::VFace& vFace, Index number, In
   if (vFace.size == 1) {
     const TriangleImages t(vertex.at, vFace.mStart, vFace.mEnd);
     t.setVFace(split);
-    vertex.corner = {split.vFace0,
-                     t.mStart,
-                     t.mEnd,
-                     split.r[0],
-                     middle(split.r[0], split.r[3]),
-                     split.l[0],
-                     middle(split.l[0], split.l[3]),
-                     split.f0};
+    vertex.corner = t.below(split);
     return;
   }
   split.vFace0 = vFaceSecond_[vFace.begin + place];
@@ -132,7 +110,7 @@ void LocalVertices::openFace(const Corner& at) {
     face.far[i] = r[1];
     face.hasEdge[i] = right.exists;
     face.hasCorner[i] =
-        right.exists && images_.edgeFace(c.previous().slot()).exists && hasVFace(c.slot());
+        right.exists && images_.edgeFace(c.previous().slot()).exists && images_.hasVFace(c.slot());
     if (face.hasCorner[i])
       face.corner[i] = vFace.size == 1
                            ? TriangleImages(images_.image(c.slot()), vFace.mStart, vFace.mEnd).u
@@ -147,24 +125,14 @@ LevelOneVertex LocalVertices::at(const Corner& c) {
   const LocalImages::VFace& vFace = images_.vFace(c.slot());
   vertex.regular = c.size == 4 && sizeOfVFace(vFace) == 4;
   if (vertex.regular) {
-    vertex.patch = patchAt(c);
+    vertex.patch = images_.patchAt({c.first, c.place, c.size});
     return vertex;
   }
-  const LocalImages::EdgeFace& right = images_.edgeFace(c.slot());
-  const LocalImages::EdgeFace& left = images_.edgeFace(c.previous().slot());
-  VertexSplit& split = vertex.split;
-  split.f0 = second_[c.slot()];
-  split.fNext = second_[c.next().slot()];
-  split.fPrevious = second_[c.previous().slot()];
-  split.r = quadImages(vertex.at, images_.image(c.next().slot()), right.far, right.near);
-  split.l = quadImages(vertex.at, images_.image(c.previous().slot()), left.near, left.far);
-  split.hasR = right.exists;
-  split.hasL = left.exists;
+  vertex.split =
+      images_.splitAt({c.first, c.place, c.size}, std::span(second_).subspan(c.first, c.size));
   splitVFace(vFace, images_.vFaceNumber(c.slot()), images_.placeInVFace(c.slot()), vertex);
   vertex.quadF = c.size == 4;
-  if (vertex.quadF) {
-    split.fOpposite = second_[c.first + (c.place ^ 2U)];
-  } else {
+  if (!vertex.quadF) {
     openFace(c);
     vertex.levelsOfF = &faceLevels_;
     vertex.placeInF = c.place;
@@ -263,7 +231,7 @@ VertexFaces LocalVertices::facesAt(const Corner& c) {
   faces.l = {faces.at, faces.previous, left.near, left.far};
   faces.hasR = right.exists;
   faces.hasL = left.exists;
-  faces.hasVFace = hasVFace(c.slot());
+  faces.hasVFace = images_.hasVFace(c.slot());
   if (!faces.hasR) faces.right = faces.at;
   if (!faces.hasL) faces.left = faces.at;
   if (faces.hasVFace) {

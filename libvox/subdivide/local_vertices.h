@@ -66,7 +66,6 @@ class LocalVertices {
   CurvePoints curveAcrossR(const Corner& corner) const;
   CurvePoints curveAcrossL(const Corner& corner) const;
 
-  bool hasVFace(Index slot) const { return images_.vFace(slot).closed || images_.extends(); }
   bool isBoundary(const Corner& corner) const {
     return images_.base().adjacency.twin[corner.number] == kNone;
   }
@@ -77,7 +76,6 @@ class LocalVertices {
   Index sizeOfVFace(const LocalImages::VFace& vFace) const {
     return vFace.closed || images_.extends() ? vFace.size : 4;
   }
-  Patch patchAt(const Corner& corner) const;
   void splitVFace(const LocalImages::VFace& vFace, Index number, Index place,
                   LevelOneVertex& vertex);
   void openFace(const Corner& corner);
