@@ -220,10 +220,10 @@ TEST_CASE("a band of two widths has a background for each side, beside open obje
   const PolygonMesh solid = test::moved(test::cube(), Vec3d(9, 0, 0), 20);
   for (const auto& meshes : {std::vector{solid}, std::vector{solid, test::sheet(4, 4)}}) {
     for (const BandWidths band : {BandWidths(2, 5), BandWidths(5, 3), BandWidths(2, 22)}) {
-      for (const bool half : {false, true}) {
+      for (const bool isHalf : {false, true}) {
         ConvertOptions options = surfaceAt(0.2);
         options.volume.band = band;
-        options.volume.half = half;
+        options.volume.half = isHalf;
         const Conversion conversion = convert(sceneOf(meshes), options);
         const auto grid = surfaceOf(conversion);
         CAPTURE(meshes.size(), band.in, band.out);

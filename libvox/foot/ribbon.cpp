@@ -20,16 +20,8 @@ constexpr int kStepsOfLeg = 8;
 constexpr int kMostSegments = 64;
 
 RibbonPoint pointAt(const LimitPiece& piece, double u, double v) {
-  const SplinePlace atU{u}, atV{v};
-  std::array<Vec3d, 3> values, slopes;
-  for (std::size_t j = 0; j < 3; ++j) {
-    const auto& p = piece.points;
-    values[j] = atU.value(p[0][j], p[1][j], p[2][j]);
-    slopes[j] = atU.slope(p[0][j], p[1][j], p[2][j]);
-  }
-  return {u, v, atV.value(values[0], values[1], values[2]),
-          normalOfTangents(atV.value(slopes[0], slopes[1], slopes[2]),
-                           atV.slope(values[0], values[1], values[2]))};
+  const auto [point, normal] = splinePoint(piece.points, {u}, {v});
+  return {u, v, point, normal};
 }
 
 /// Half of the border of a piece: two sides, one after the other.
