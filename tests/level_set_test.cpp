@@ -233,7 +233,8 @@ TEST_CASE("a band of two widths has a background for each side, beside open obje
           REQUIRE(*value == (*value < 0 ? valueAt(*grid, Vec3d(9, 0, 0)) : grid->background()));
         std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
         writeGrids(stream, conversion);
-        const auto grids = openvdb::io::Stream(stream, false).getGrids();
+        std::istringstream written(stream.str());
+        const auto grids = openvdb::io::Stream(written, false).getGrids();
         CHECK(lintGrid(*grids->at(0)).empty());
       }
     }

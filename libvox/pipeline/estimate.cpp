@@ -226,9 +226,12 @@ GridEstimate estimateSoftDensity(const Measure& m, const VolumeSettings& volume)
 }
 
 GridEstimate estimateSurface(const Measure& m, const VolumeSettings& volume) {
-  // Inside there may be less room than the band is wide.
+  // Inside there may be less room than the band is wide. The volume may be too small: that of
+  // polygons.
+  constexpr double kLeastDepth = 3;
   const double closedArea = m.area - m.sheetArea;
-  const double inner = std::min(volume.band.in * closedArea, m.volume + closedArea);
+  const double inner = std::min(volume.band.in * closedArea,
+                                std::max(m.volume + closedArea, kLeastDepth * closedArea));
   const double band = volume.band.out * (m.area + m.sheetArea) + inner;
   GridEstimate grid{GridKind::kSurface};
   grid.voxels = band;
