@@ -327,7 +327,7 @@ expect 0 'active voxels' convert file.toml -o file.vdb --dim 32
 expect 0 'active voxels' convert file.toml -o file2.vdb --dim 32 --half=false --compression none
 [ "$(stat -c %s file.vdb)" -lt "$(stat -c %s file2.vdb)" ] || fail "half floats and zip do not save space"
 
-printf '[convert]\ngrids = ["surface"]\nband = 4\ntolerance = 0.2\n[[object]]\n%s\n' "$cube" >level.toml
+printf '[convert]\ngrids = ["surface"]\nband = 4\n[[object]]\n%s\n' "$cube" >level.toml
 expect 0 'active voxels' convert level.toml -o level.vdb --dim 32
 "$vox" info level.vdb | grep -q 'grid surface: .*level set' || fail "no level set"
 expect 0 'active voxels' convert level.toml -o level.vdb --dim 32 --grids surface,density,mask --band 3 --force
@@ -343,12 +343,17 @@ expect 0 'active voxels' convert "$scenes/cube.toml" -o widths.vdb --dim 32 --gr
 python3 -c 'import json, sys; sys.exit(json.load(open("widths.json"))["options"]["band"] != [3.5, 5])' ||
   fail "band in the report: $(cat widths.json)"
 "$vox" info widths.vdb | grep -q 'band=3.5,5' || fail "no band in the metadata"
-expect 0 'no faults' check widths.vdb --ignore no-density
+expect 0 '' check widths.vdb --ignore no-density
 printf '[convert]\ngrids = ["surface"]\nband = [2, 5]\n[[object]]\n%s\n' "$cube" >widths.toml
 expect 0 'active voxels' convert widths.toml -o widths2.vdb --dim 32
-expect 0 'no faults' check widths2.vdb --ignore no-density
-expect 0 '' convert level.toml -o level.vdb --dim 32 --tolerance 0.3 --force
-[ "$(grep -c 'warning: tolerance has no effect any more: distances are exact' stderr)" = 1 ] || fail "tolerance: $(cat stderr)"
+expect 0 '' check widths2.vdb --ignore no-density
+printf '[convert]\ntolerance = 0.2\n[[object]]\n%s\n' "$cube" >tolerance.toml
+for arguments in 'level.toml --tolerance 0.3' tolerance.toml 'tolerance.toml --tolerance 0.3' 'tolerance.toml --dry-run'; do
+  # shellcheck disable=SC2086
+  expect 0 '' convert $arguments -o level.vdb --dim 32 --force
+  [ "$(grep -c 'warning: tolerance has no effect any more: distances are exact' stderr)" = 1 ] ||
+    fail "$arguments: $(cat stderr)"
+done
 expect 2 'the tolerance must lie' convert good.obj -o out.vdb --tolerance 0 --grids surface
 expect 4 'memory' convert "$scenes/cube.toml" -o out.vdb --grids surface --dim 3000 --max-memory 256M
 
