@@ -11,6 +11,7 @@ namespace vox {
 struct CellOptions {
   float reach = 3;           ///< largest distance of interest, voxels
   bool polynomials = true;   ///< make polynomial cells where they are precise enough
+  double tolerance = 0.003;  ///< of the pieces around extraordinary faces (limit_walk.h), voxels
   float newtonStop = 0.15F;  ///< a shorter step of Newton's method is the last one, voxels
 };
 

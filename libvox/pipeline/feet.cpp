@@ -19,8 +19,9 @@ namespace {
 /// A voxel that a surface crosses is nearer than sqrt(3) / 2; a vertex that switched it on may lie
 /// a little off the limit surface.
 constexpr float kFirstReach = 1.25F;
-constexpr float kMoreReach = 4;     // times as far in the next pass
-constexpr float kMostReach = 4000;  // voxels
+constexpr double kFootTolerance = 0.01;  // voxels: a foot need not be as near as a distance
+constexpr float kMoreReach = 4;          // times as far in the next pass
+constexpr float kMostReach = 4000;       // voxels
 
 FootSurfaces::Flat flatTriangles(const PolygonMesh& mesh) {
   FootSurfaces::Flat flat;
@@ -76,7 +77,8 @@ void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
   constexpr double kPartOfCells = 0.4;
   openvdb::MaskTree left(voxels);
   for (float reach = kFirstReach; reach <= kMostReach && !left.empty(); reach *= kMoreReach) {
-    const CellOptions cellOptions{.reach = reach, .polynomials = false, .newtonStop = 0.02F};
+    const CellOptions cellOptions{
+        .reach = reach, .polynomials = false, .tolerance = kFootTolerance, .newtonStop = 0.02F};
     FootCells cells(cellOptions, reach > kFirstReach ? binsOf(left) : std::vector<openvdb::Coord>{},
                     budget);
     for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {

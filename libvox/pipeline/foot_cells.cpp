@@ -7,6 +7,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/foot/triangle_maker.h"
+#include "libvox/grid/transform.h"
 #include "libvox/pipeline/run_submeshes.h"
 #include "libvox/subdivide/limit_walk.h"
 
@@ -28,7 +29,7 @@ struct CellWalk {
 
   CellWalk(const SubdivisionLevel& base, const CellOptions& options, std::uint32_t firstOwner,
            std::span<const std::uint32_t> groups, CellStore& cells, const PieceFilter& makeFilter)
-      : store(cells), walk(base), maker(options, firstOwner, groups, cells) {
+      : store(cells), walk(base, options.tolerance), maker(options, firstOwner, groups, cells) {
     if (makeFilter) filter = makeFilter(maker);
   }
 
@@ -66,8 +67,13 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
                                 Progress& progress, double part) {
   const std::uint32_t firstOwner = firstOwner_;
   takeOwners(surface.base.mesh.cornerCount());
+  // On a surface of a few voxels, errors of the shape are far from voxels and add up there.
+  constexpr double kPartOfSize = 1e-3;
+  CellOptions cellOptions = options_;
+  cellOptions.tolerance =
+      std::min(options_.tolerance, kPartOfSize * usedBox(surface.base.mesh).longestSide());
   const auto walkOfThread = [&] {
-    return std::make_unique<CellWalk>(surface.base, options_, firstOwner, groups, newStore(),
+    return std::make_unique<CellWalk>(surface.base, cellOptions, firstOwner, groups, newStore(),
                                       filter);
   };
   runSubmeshes(cutIntoSubmeshes(surface.base, surface.options), progress, part, walkOfThread,

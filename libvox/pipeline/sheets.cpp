@@ -68,9 +68,10 @@ std::vector<bool> haveInside(const PreparedSurface& surface,
                   static_cast<Index>(i));
   std::vector<Votes> votes(components.size());
   InnerSide count(inside, componentOf, votes);
+  constexpr double kCoarse = 0.25;  // voxels
   runSubmeshes(
       cutIntoSubmeshes(surface.base, surface.options), progress, 0,
-      [&] { return std::make_unique<LimitWalk>(surface.base); },
+      [&] { return std::make_unique<LimitWalk>(surface.base, kCoarse); },
       [&](const std::unique_ptr<LimitWalk>& walk, const SubmeshTask& task) {
         walk->emit(task.faces, count);
       });

@@ -274,7 +274,8 @@ class SoftDensity {
   void visitFeetOf(const FacesOfSurfaces& faces, float reach, bool onlyExposed, double part,
                    const VisitLeafFeet& visit) {
     constexpr double kPartOfCells = 0.3;
-    FootCells cells({.reach = reach, .polynomials = false, .newtonStop = 0.02F}, budget_);
+    FootCells cells({.reach = reach, .polynomials = false, .tolerance = 0.01, .newtonStop = 0.02F},
+                    budget_);
     for (std::size_t s = 0; s < surfaces_.size(); ++s)
       if (!faces[s].empty())
         addCells(surfaces_[s], faces[s], onlyExposed,

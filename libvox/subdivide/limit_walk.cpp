@@ -350,15 +350,11 @@ void LimitWalk::emitAround(ExtraordinaryFace& face, LimitSink& sink) {
 /// Emits the surface at a vertex in the triangle that a boundary vertex with one face makes. The
 /// rest is closed by a piece that treats the triangle as a quad with the vertex at two corners.
 void LimitWalk::emitBoundaryCorner(BoundaryCorner at, CornerSquare square, LimitSink& sink) {
-  constexpr double kPerDifference = 0.6;
-  constexpr double kSmall = 0.005;  // voxels
+  constexpr double kSmall = 0.005;  // voxels, also along the surface: there it ends
   for (int level = 2;; ++level) {
     requireLevelInRange(level);
     const Vec3d difference = (at.u - middle(at.mStart, at.mEnd)) / 4.0;
-    const Vec3d normal = (at.right - at.u).cross(at.left - at.u);
-    const double size = normal.norm();
-    const double error = size > 0 ? std::abs(normal.dot(difference)) / size : difference.norm();
-    if (kPerDifference * error <= tolerance_ || difference.norm() < kSmall) break;
+    if (difference.norm() < kSmall) break;
     const VertexSplit split = at.split();
     emitPiece(split.childInR(), kSideV0, square.quarter(true, false), sink);
     emitPiece(split.childInL(), kSideU0, square.quarter(false, true), sink);

@@ -30,7 +30,7 @@ class LimitWalk {
   /// @param base       level 0, in index space: an oriented manifold with one fan of faces at each
   ///   vertex
   /// @param tolerance  voxels
-  explicit LimitWalk(const SubdivisionLevel& base, double tolerance = 0.001)
+  explicit LimitWalk(const SubdivisionLevel& base, double tolerance)
       : images_(base), tolerance_(tolerance) {}
 
   /// Gives the sink the pieces that the corners of some faces own.
