@@ -6,6 +6,7 @@
 #include "libvox/core/progress.h"
 #include "libvox/foot/leaf_flood.h"
 #include "libvox/foot/scan_cell.h"
+#include "libvox/grid/enclosed.h"
 #include "libvox/grid/openvdb.h"
 
 #include <openvdb/tools/SignedFloodFill.h>
@@ -17,6 +18,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
 #include <vector>
@@ -73,17 +75,6 @@ LeafBits bitsOf(const openvdb::MaskTree& mask, const openvdb::Coord& origin) {
   else
     bits.fill(mask.isValueOn(origin) ? ~std::uint64_t{0} : 0);
   return bits;
-}
-
-/// Whether all 26 neighbours are solid. Where a surface has the outside on one side, each voxel
-/// that it crosses has a neighbour outside; so a surface in an enclosed voxel lies within others.
-bool isEnclosed(const openvdb::tree::ValueAccessor<const openvdb::MaskTree>& solid,
-                const openvdb::Coord& voxel) {
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z)
-        if (!solid.isValueOn(voxel.offsetBy(x, y, z))) return false;
-  return true;
 }
 
 class BandMaker {

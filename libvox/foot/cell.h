@@ -26,20 +26,19 @@ struct Prism {
 struct NewtonCell {
   Prism prism;
   Biquadratic surface;          ///< from prism.origin
-  Float3 middle;                ///< surface at a = b = 0
-  std::array<Float3, 2> guess;  ///< first a, b of a point x: guess . (x - middle)
+  std::array<Float3, 2> guess;  ///< first a, b of a point x: guess . (x - surface[0])
   int mostSteps = 0;
   bool severalStarts = false;  ///< it turns so much that there may be several local minima
   bool isCurve = false;        ///< a curve in which the surface ends
   float stop = 0;              ///< a step of fewer parameters is the last one
   // Its place: parameter u of the square of the corner is u + side[0] a, v is v + side[1] b.
-  std::uint32_t owner = 0;  ///< CellMaker::firstOwner + number of the corner
   float u = 0, v = 0;
   std::array<float, 2> side = {};
 };
 
 /// A cell with distance t and parameters a, b as cubic polynomials of x - prism.centre. Order of
-/// the terms: 1 X Y Z XX XY XZ YY YZ ZZ XXX XXY XXZ XYY XYZ XZZ YYY YYZ YZZ ZZZ.
+/// the terms: 1; the coordinates; their 6 products of two; their 10 products of three, each in the
+/// order of the alphabet.
 struct PolynomialCell {
   Prism prism;
   std::array<std::array<float, 20>, 3> terms;  ///< of t, a, b
@@ -82,7 +81,8 @@ struct CellStore {
   std::vector<PolynomialCell> polynomial;
   std::vector<TriangleCell> triangles;
   std::vector<BinnedCell> binned;
-  const std::vector<openvdb::Coord>* onlyBins = nullptr;  ///< if not null: the bins of interest
+  const std::vector<openvdb::Coord>* onlyBins =
+      nullptr;  ///< if not null: the bins of interest, sorted
 
   std::uint64_t bytes() const {
     return newton.capacity() * sizeof(NewtonCell) + polynomial.capacity() * sizeof(PolynomialCell) +

@@ -17,11 +17,8 @@ constexpr float kReachMargin = 0.05F;
 constexpr float kMostSine = 0.5F;  // of the turn of a normal within a cell
 constexpr int kMostDepth = 20;
 
-float sizeOf(const Float3& a) {
-  return length(a);
-}
-
-float lengthAlongU(const LimitPiece& piece, bool alongU) {
+/// Longest step between control points along u, or along v.
+float longestStep(const LimitPiece& piece, bool alongU) {
   double longest = 0;
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
@@ -80,9 +77,9 @@ struct CellMaker::Shape {
     alongA = c[1];
     alongB = c[3];
     normal = cross(alongA, alongB);
-    const float area = sizeOf(normal);
-    lengthA = sizeOf(alongA);
-    lengthB = sizeOf(alongB);
+    const float area = length(normal);
+    lengthA = length(alongA);
+    lengthB = length(alongB);
     degenerate = !(area > 1e-5F * lengthA * lengthB) || area < 1e-12F;
     badNormal = degenerate;
     if (degenerate) {
@@ -156,7 +153,7 @@ struct CellMaker::Shape {
   /// Second derivatives along the normal, as far as they reach over the cell.
   void setTurn() {
     const auto bend = [&](std::size_t m) {
-      return std::abs(dot(c[m], normal)) + 0.1F * sizeOf(c[m]);
+      return std::abs(dot(c[m], normal)) + 0.1F * length(c[m]);
     };
     turnA = badNormal ? lengthA : bend(2) + 0.5F * bend(4);
     turnB = badNormal ? lengthB : bend(6) + 0.5F * bend(4);
@@ -168,8 +165,8 @@ void CellMaker::piece(const LimitPiece& piece) {
   if (piece.boundarySides != kAllSides && ribbon_.set(piece))
     return addRibbon(ribbon_, piece, options_.reach, group(), owner(), store_);
   const auto parts = [&](bool alongU) {
-    return std::max(
-        1, static_cast<int>(std::ceil(lengthAlongU(piece, alongU) / kLongestFlat - 1e-6F)));
+    return std::max(1,
+                    static_cast<int>(std::ceil(longestStep(piece, alongU) / kLongestFlat - 1e-6F)));
   };
   const int countU = parts(true);
   const int countV = parts(false);
@@ -233,7 +230,7 @@ Prism CellMaker::prismOf(const Shape& shape, unsigned sides) const {
     const float least = 1 + 0.02F / size;
     low[k] = std::min(tube.low - inflation, -least);
     high[k] = std::max(tube.high + inflation, least);
-    const float across = reach * sizeOf(shape.guess[k]);
+    const float across = reach * length(shape.guess[k]);
     if (shape.badNormal) {
       high[k] = 1.2F * shape.flat[k] + across;
       low[k] = -high[k];
@@ -279,7 +276,6 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   NewtonCell& cell = store_.newton.emplace_back();
   cell.prism = prism;
   cell.surface = shape.c;
-  cell.middle = shape.c[0];
   cell.guess = shape.guess;
   cell.isCurve = piece_->boundarySides == kAllSides;
   cell.severalStarts = shape.badNormal || shape.sine > kMostSine;
@@ -288,12 +284,11 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   constexpr float kMostStop = 0.05F;
   cell.stop = std::min(kMostStop, options_.newtonStop / std::max(shape.lengthA, shape.lengthB));
   const CornerSquare& square = piece_->square;
-  cell.owner = owner();
   cell.u = static_cast<float>(square.u + square.sideU * (part.u0 + part.u1) / 2);
   cell.v = static_cast<float>(square.v + square.sideV * (part.v0 + part.v1) / 2);
   cell.side = {static_cast<float>(square.sideU * (part.u1 - part.u0) / 2),
                static_cast<float>(square.sideV * (part.v1 - part.v0) / 2)};
-  store_.bin(prism, group(), cell.owner, store_.newton.size() - 1, CellKind::kNewton);
+  store_.bin(prism, group(), owner(), store_.newton.size() - 1, CellKind::kNewton);
 }
 
 /// Returns false if polynomials are not precise enough.

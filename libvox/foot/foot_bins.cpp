@@ -4,6 +4,7 @@
 
 #include "libvox/core/parallel.h"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
@@ -30,8 +31,13 @@ void CellStore::bin(const Prism& prism, std::uint32_t group, std::uint32_t owner
     for (auto at = bins.begin(); at; ++at) enter(*at);
     return;
   }
-  for (const openvdb::Coord& at : *onlyBins)
-    if (bins.isInside(at)) enter(at);
+  if (bins.volume() > onlyBins->size()) {
+    for (const openvdb::Coord& at : *onlyBins)
+      if (bins.isInside(at)) enter(at);
+    return;
+  }
+  for (auto at = bins.begin(); at; ++at)
+    if (std::binary_search(onlyBins->begin(), onlyBins->end(), *at)) enter(*at);
 }
 
 FootBins::FootBins(std::vector<const CellStore*> stores) : stores_(std::move(stores)) {

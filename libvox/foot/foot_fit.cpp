@@ -45,22 +45,22 @@ struct FitTables {
   std::array<std::array<float, kTerms>, kNodes> solve;
 
   FitTables() {
-    const auto chebyshev = [](int i, int n) {
-      return -std::cos((2 * i + 1) * std::acos(-1.0) / (2 * n));
-    };
+    // Chebyshev nodes: cosines of pi / 8, 3 pi / 8 and pi / 6. Square roots are exact everywhere.
+    const double outer = std::sqrt(2 + std::sqrt(2.0)) / 2,
+                 inner = std::sqrt(2 - std::sqrt(2.0)) / 2;
+    const std::array<double, 4> four = {-outer, -inner, inner, outer};
+    const std::array<double, 3> three = {-std::sqrt(3.0) / 2, 0, std::sqrt(3.0) / 2};
     Eigen::Matrix<double, kNodes, kTerms> matrix;
-    for (int k = 0; k < static_cast<int>(kNodes); ++k) {
-      const std::array<double, 3> at = {chebyshev(k % 4, 4), chebyshev(k / 4 % 4, 4),
-                                        chebyshev(k / 16, 3)};
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      const std::array<double, 3> at = {four[k % 4], four[k / 4 % 4], three[k / 16]};
       std::array<double, 20> value;
       value[0] = 1;
       for (std::size_t i = 0; i < 10; ++i)
         for (std::size_t d = 0; d < 3; ++d) value[kTimes[d][i]] = value[i] * at[d];
-      const auto column = static_cast<std::size_t>(k);
-      for (std::size_t d = 0; d < 3; ++d) node[d][column] = static_cast<float>(at[d]);
+      for (std::size_t d = 0; d < 3; ++d) node[d][k] = static_cast<float>(at[d]);
       for (std::size_t i = 0; i < kTerms; ++i) {
-        terms[i][column] = static_cast<float>(value[i]);
-        matrix(k, static_cast<Eigen::Index>(i)) = value[i];
+        terms[i][k] = static_cast<float>(value[i]);
+        matrix(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = value[i];
       }
     }
     const Eigen::Matrix<double, kTerms, kNodes> inverse =

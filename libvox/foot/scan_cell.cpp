@@ -51,8 +51,9 @@ void solve(const NewtonCell& cell, const Float3& shift, Feet& feet) {
     const V3 x = {hn::Sub(hn::Load(d, feet.x.data() + i), set(shift[0])),
                   hn::Sub(hn::Load(d, feet.y.data() + i), set(shift[1])),
                   hn::Sub(hn::Load(d, feet.z.data() + i), set(shift[2]))};
-    const V3 fromMiddle = {hn::Sub(x[0], set(cell.middle[0])), hn::Sub(x[1], set(cell.middle[1])),
-                           hn::Sub(x[2], set(cell.middle[2]))};
+    const V3 fromMiddle = {hn::Sub(x[0], set(cell.surface[0][0])),
+                           hn::Sub(x[1], set(cell.surface[0][1])),
+                           hn::Sub(x[2], set(cell.surface[0][2]))};
     V a = within(along(cell.guess[0], fromMiddle));
     V b = within(along(cell.guess[1], fromMiddle));
     descend(cell, x, a, b);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/foot/foot_brick.h"
+#include "libvox/foot/prism_rows.h"
 
 #include <array>
 #include <cstddef>
@@ -35,12 +36,6 @@ void scanPolynomials(const PolynomialCell& cell, const openvdb::Coord& binOrigin
 /// Bits of the voxels of each leaf of a bin: bit y << 3 | z of word x.
 using BinMask = std::array<std::array<std::uint64_t, 8>, FootBrick::kLeaves>;
 
-/// Calls visit(feet) with the feet of all voxels of a bin in the prism of a cell, some at a time.
-/// @param wanted  if not null, only these voxels
-template <class Cell, class Visit>
-void scanFeet(const Cell& cell, const openvdb::Coord& binOrigin, const BinMask* wanted, Feet& feet,
-              Visit&& visit);
-
 /// Index of the leaf of a voxel in its bin, and of the voxel in its leaf.
 inline unsigned leafOf(unsigned x, unsigned y, unsigned z) {
   return (x >> 3) << 4 | (y >> 3) << 2 | z >> 3;
@@ -49,12 +44,8 @@ inline unsigned voxelInLeaf(unsigned x, unsigned y, unsigned z) {
   return (x & 7U) << 6 | (y & 7U) << 3 | (z & 7U);
 }
 
-}  // namespace vox
-
-#include "libvox/foot/prism_rows.h"
-
-namespace vox {
-
+/// Calls visit(feet) with the feet of all voxels of a bin in the prism of a cell, some at a time.
+/// @param wanted  if not null, only these voxels
 template <class Cell, class Visit>
 void scanFeet(const Cell& cell, const openvdb::Coord& binOrigin, const BinMask* wanted, Feet& feet,
               Visit&& visit) {

@@ -151,10 +151,13 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
     mask = markObjects(scene, request, prepared, progress, report);
   }
   openvdb::MaskGrid::Ptr laterMask;
+  const double workOfSurfaceGrid =
+      workOfGrids(prepared.areas, std::array{GridKind::kSurface}, request.volume.edge);
   const MarkVoxels markVoxels = [&]() -> const openvdb::MaskTree& {
     if (marks) return mask->tree();
     ConvertReport unused = report;
     laterMask = markObjects(scene, request, prepared, progress, unused);
+    progress.begin("grids", workOfSurfaceGrid / 2);  // go on where makeGrid was
     return laterMask->tree();
   };
 
@@ -165,7 +168,8 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, request, report);
   for (const GridKind kind : request.grids) {
-    progress.begin("grids", workOfGrids(prepared.areas, std::array{kind}, volume.edge));
+    const double work = workOfGrids(prepared.areas, std::array{kind}, volume.edge);
+    progress.begin("grids", kind == GridKind::kSurface && !marks ? work / 2 : work);
     result.grids.push_back(finished(makeGrid(kind, {mask, prepared.surfaces, markVoxels}, volume,
                                              prepared.budget, progress, report.warnings),
                                     kind, volume, metadata));

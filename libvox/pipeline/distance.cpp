@@ -74,24 +74,21 @@ void setGroups(std::vector<Part>& parts) {
   }
 }
 
-/// A number for each corner of some parts of a surface.
-template <class NumberOf>
-std::vector<std::uint32_t> numbersOfCorners(const PolygonMesh& mesh, std::span<const Part> parts,
-                                            NumberOf&& numberOf) {
-  std::vector<std::uint32_t> numbers(mesh.cornerCount(), 0);
+/// The group of each corner of some parts of a surface.
+std::vector<std::uint32_t> groupsOfCorners(const PolygonMesh& mesh, std::span<const Part> parts) {
+  std::vector<std::uint32_t> groups(mesh.cornerCount(), 0);
   for (const Part& part : parts)
     for (const Index f : part.component->faces)
-      std::fill_n(numbers.begin() + mesh.faceOffsets[f], mesh.faceSize(f), numberOf(part));
-  return numbers;
+      std::fill_n(groups.begin() + mesh.faceOffsets[f], mesh.faceSize(f), part.group);
+  return groups;
 }
 
-/// The faces of some parts of a surface, ascending; none if these are all faces.
-std::vector<Index> facesOf(const PolygonMesh& mesh, std::span<const Part> parts) {
+/// The faces of some parts of a surface, ascending.
+std::vector<Index> facesOf(std::span<const Part> parts) {
   std::vector<Index> faces;
   for (const Part& part : parts)
     faces.insert(faces.end(), part.component->faces.begin(), part.component->faces.end());
   std::sort(faces.begin(), faces.end());
-  if (faces.size() == mesh.faceCount()) faces.clear();
   return faces;
 }
 
@@ -161,8 +158,6 @@ class LevelSetMaker {
   /// has no such distances.
   static constexpr double kExposedDepth = 2.2;  // voxels
   static constexpr double kFoldedDepth = 1.7;   // voxels
-  static constexpr const char* kAdvice =
-      "use a smaller --band or larger voxels, or raise --max-memory";
 
   /// Open parts that enclose something become closed ones.
   void findEnclosing() {
@@ -195,11 +190,11 @@ class LevelSetMaker {
         mayMeet(closed_) || std::any_of(closed_.begin(), closed_.end(), facesInward);
     if (!overlap && inside_.solid == nullptr) {
       const Band band = bandOf(closed_, options, false, kFirst);
-      if (band.jumps == 0) return widened(band, closed_, options, false);
+      if (band.jumps == 0) return band.tree;
     }
     findInside();
     const double share = overlap || !open_.empty() ? kFirst : 1 - kFirst;
-    return widened(bandOf(closed_, options, true, share), closed_, options, true);
+    return bandOf(closed_, options, true, share).tree;
   }
 
   openvdb::FloatTree::Ptr bandOfSheets() {
@@ -207,39 +202,26 @@ class LevelSetMaker {
     const double half = settings_.openMesh == OpenMesh::kUnsigned ? 0 : kHalfThickness;
     const double out = settings_.band.out;  // no voxel is deeper than half the thickness
     const BandOptions options{out, out, voxelSize_, true, half};
-    const double share = closed_.empty() ? 1 : 0.1;
-    return widened(bandOf(open_, options, false, share), open_, options, false);
+    return bandOf(open_, options, false, closed_.empty() ? 1 : 0.1).tree;
   }
 
-  /// The options of the part of a band that makeBand makes.
-  static BandOptions narrowed(BandOptions options) {
-    options.in = std::min(options.in, kMostExact);
-    options.out = std::min(options.out, kMostExact);
-    return options;
-  }
-
-  /// The band, at most kMostExact wide.
-  /// @param byVoxels  whether voxels decide what is inside
+  /// @param byVoxels  whether voxels decide what is inside; else a band with jumps stays narrow
   /// @param share     of the stage
   Band bandOf(const std::vector<Part>& parts, const BandOptions& options, bool byVoxels,
               double share) {
     constexpr double kPartOfCells = 0.3;
-    const BandOptions narrow = narrowed(options);
-    FootCells cells({.reach = reachOf(narrow, byVoxels)}, budget_);
+    BandOptions narrow = options;
+    narrow.in = std::min(options.in, kMostExact);
+    narrow.out = std::min(options.out, kMostExact);
+    const bool isWide = narrow.in < options.in || narrow.out < options.out;
+    FootCells cells({.reach = reachOf(narrow, byVoxels), .polynomials = !isWide}, budget_);
     addCells(parts, byVoxels, kPartOfCells * share, cells);
-    return makeBand(cells.bins(), narrow, byVoxels ? inside_ : Inside{}, progress_,
-                    (1 - kPartOfCells) * share);
-  }
-
-  /// The band in its whole width.
-  openvdb::FloatTree::Ptr widened(const Band& band, const std::vector<Part>& parts,
-                                  const BandOptions& options, bool byVoxels) {
-    const BandOptions narrow = narrowed(options);
-    if (narrow.in == options.in && narrow.out == options.out) return band.tree;
-    FootCells cells({.reach = reachOf(narrow, byVoxels), .polynomials = false}, budget_);
-    addCells(parts, byVoxels, 0, cells);
-    widen(*band.tree, kMostExact, cells.bins(), options, progress_);
-    return band.tree;
+    const FootBins bins = cells.bins();
+    const Band band = makeBand(bins, narrow, byVoxels ? inside_ : Inside{}, progress_,
+                               (1 - kPartOfCells) * share);
+    if (isWide && (byVoxels || band.jumps == 0))
+      widen(*band.tree, kMostExact, bins, options, progress_);
+    return band;
   }
 
   /// Where parts overlap, a surface that is not passed on by ExposedPieces must lie within the
@@ -261,21 +243,23 @@ class LevelSetMaker {
                          FootCells& cells) const {
     const PreparedSurface& surface = surfaces_[parts[0].surface];
     if (levelOf(surface.way)) {
+      constexpr std::size_t kMostGroups = 256;  // beyond, each would cost a pass over the mesh
+      if (parts.size() > kMostGroups)
+        return cells.addTriangles(trianglesOfLevel(surface, facesOf(parts), budget_, progress_),
+                                  parts[0].group, progress_);
       for (const Part& part : parts)
         cells.addTriangles(trianglesOfLevel(surface, part.component->faces, budget_, progress_),
                            part.group, progress_);
       return;
     }
-    const PolygonMesh& mesh = surface.base.mesh;
-    const std::vector<std::uint32_t> groups =
-        numbersOfCorners(mesh, parts, [](const Part& part) { return part.group; });
+    const std::vector<std::uint32_t> groups = groupsOfCorners(surface.base.mesh, parts);
     PieceFilter filter;
     if (byVoxels)
       filter = [this](LimitSink& next) {
         return std::make_unique<ExposedPieces>(
             *inside_.solid, closed_.size() > 1 ? kExposedDepth : kFoldedDepth, next);
       };
-    cells.addLimitSurface(surface, facesOf(mesh, parts), groups, filter, progress_, share);
+    cells.addLimitSurface(surface, facesOf(parts), groups, filter, progress_, share);
   }
 
   std::span<const PreparedSurface> surfaces_;

@@ -19,25 +19,25 @@ namespace {
 /// A voxel that a surface crosses is nearer than sqrt(3) / 2; a vertex that switched it on may lie
 /// a little off the limit surface.
 constexpr float kFirstReach = 1.25F;
-constexpr double kFootTolerance = 0.01;  // voxels: a foot need not be as near as a distance
+constexpr double kFootTolerance = 0.007;  // voxels: a foot need not be as near as a distance
 constexpr float kMoreReach = 4;          // times as far in the next pass
 constexpr float kMostReach = 4000;       // voxels
 
 FootSurfaces::Flat flatTriangles(const PolygonMesh& mesh) {
   FootSurfaces::Flat flat;
   flat.triangles.points = mesh.points;
-  FaceTriangulator triangulator;
+  std::vector<Vec3d> points;
   std::vector<std::array<Index, 3>> triangles;
+  TriangulationReport unused;
   for (Index f = 0; f < mesh.faceCount(); ++f) {
-    triangles.clear();
-    triangulator.add(mesh, f, triangles);
     const auto face = mesh.face(f);
-    for (const auto& triangle : triangles) {
-      flat.triangles.addFace(triangle);
-      for (const Index v : triangle) {
-        const auto at = std::find(face.begin(), face.end(), v) - face.begin();
-        flat.corners.push_back(mesh.faceOffsets[f] + static_cast<Index>(at));
-      }
+    points.clear();
+    for (const Index v : face) points.push_back(mesh.points[v]);
+    triangles.clear();
+    triangulate(points, triangles, unused);
+    for (const auto& [a, b, c] : triangles) {
+      flat.triangles.addFace(std::array{face[a], face[b], face[c]});
+      for (const Index corner : {a, b, c}) flat.corners.push_back(mesh.faceOffsets[f] + corner);
     }
   }
   return flat;

@@ -11,8 +11,6 @@
 #include "libvox/pipeline/run_submeshes.h"
 #include "libvox/subdivide/limit_walk.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -36,7 +34,8 @@ struct CellWalk {
   /// @param among  the faces to walk over, ascending; empty: all
   void emit(std::span<const Index> submesh, const std::vector<Index>& among) {
     LimitSink& sink = filter ? *filter : maker;
-    if (among.empty()) return walk.emit(submesh, sink);
+    if (among.empty() || among.size() == walk.base().mesh.faceCount())
+      return walk.emit(submesh, sink);
     faces.clear();
     for (const Index f : submesh)
       if (std::binary_search(among.begin(), among.end(), f)) faces.push_back(f);
@@ -48,8 +47,6 @@ struct CellWalk {
 
 CellStore& FootCells::newStore() {
   const std::scoped_lock lock(mutex_);
-  if (stores_.size() > std::numeric_limits<std::uint16_t>::max())
-    throw LimitError("there are too many objects for one grid");
   CellStore& store = stores_.emplace_back();
   store.number = static_cast<std::uint16_t>(stores_.size() - 1);
   if (!onlyBins_.empty()) store.onlyBins = &onlyBins_;
@@ -73,8 +70,8 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
   cellOptions.tolerance =
       std::min(options_.tolerance, kPartOfSize * usedBox(surface.base.mesh).longestSide());
   const auto walkOfThread = [&] {
-    return std::make_unique<CellWalk>(surface.base, cellOptions, firstOwner, groups, newStore(),
-                                      filter);
+    return std::make_unique<CellWalk>(surface.base, cellOptions, firstOwner, groups,
+                                      *storeOfThread_.local(), filter);
   };
   runSubmeshes(cutIntoSubmeshes(surface.base, surface.options), progress, part, walkOfThread,
                [&](const std::unique_ptr<CellWalk>& walk, const SubmeshTask& task) {
@@ -90,11 +87,10 @@ void FootCells::addTriangles(const PolygonMesh& triangles, std::uint32_t group,
   const std::uint32_t firstOwner = firstOwner_;
   takeOwners(triangles.faceCount());
   const TriangleMaker maker(triangles, options_.reach);
-  tbb::enumerable_thread_specific<CellStore*> stores([&] { return &newStore(); });
   parallelForRanges(
       triangles.faceCount(), kTrianglesPerTask, [&](std::size_t begin, std::size_t end) {
         progress.check();
-        CellStore& store = *stores.local();
+        CellStore& store = *storeOfThread_.local();
         const std::uint64_t before = store.bytes();
         maker.add(static_cast<Index>(begin), static_cast<Index>(end), firstOwner, group, store);
         account(before, store);

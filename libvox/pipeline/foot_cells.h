@@ -4,6 +4,8 @@
 #include "libvox/foot/foot_bins.h"
 #include "libvox/pipeline/prepared_surface.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <atomic>
 #include <cstdint>
 #include <deque>
@@ -35,8 +37,8 @@ class FootCells {
   FootCells(const FootCells&) = delete;
   FootCells& operator=(const FootCells&) = delete;
 
-  /// Adds the limit surface of some faces of a surface. The cells have the owners firstOwner() +
-  /// number of the corner.
+  /// Adds the limit surface of some faces of a surface. The owners of the cells are the numbers of
+  /// the corners, after those of earlier surfaces.
   /// @param faces   ascending; empty: all
   /// @param groups  of the corners (foot/cell.h); empty: all 0
   /// @param filter  may be empty
@@ -47,12 +49,10 @@ class FootCells {
   void addLimitSurface(const PreparedSurface& surface, const std::vector<Index>& faces,
                        std::span<const std::uint32_t> groups, const PieceFilter& filter,
                        Progress& progress, double part);
-  /// Adds the triangles of a mesh, as one group. The cells have the owners firstOwner() + number of
-  /// the triangle.
+  /// Adds the triangles of a mesh, as one group. The owners of the cells are the numbers of
+  /// the triangles, after those of earlier surfaces.
   void addTriangles(const PolygonMesh& triangles, std::uint32_t group, Progress& progress);
 
-  /// Owner of the first cell that will be added.
-  std::uint32_t firstOwner() const { return firstOwner_; }
   /// The cells sorted by bins. Valid as long as this object is not changed.
   FootBins bins() const;
 
@@ -68,6 +68,7 @@ class FootCells {
   std::uint32_t firstOwner_ = 0;
   std::deque<CellStore> stores_;
   std::mutex mutex_;  // guards stores_ while cells are made
+  tbb::enumerable_thread_specific<CellStore*> storeOfThread_{[this] { return &newStore(); }};
 };
 
 }  // namespace vox

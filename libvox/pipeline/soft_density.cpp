@@ -7,6 +7,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/foot/nearest_feet.h"
+#include "libvox/grid/enclosed.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/exposed_pieces.h"
 #include "libvox/pipeline/foot_cells.h"
@@ -227,17 +228,6 @@ class SoftDensity {
     });
   }
 
-  /// Whether all 26 neighbours are solid. Where a plane crosses voxels, each of them has a
-  /// neighbour beyond all these voxels; so the surface in an enclosed voxel has no outside.
-  template <class Accessor>
-  static bool isEnclosed(const Accessor& solid, const openvdb::Coord& voxel) {
-    for (int x = -1; x <= 1; ++x)
-      for (int y = -1; y <= 1; ++y)
-        for (int z = -1; z <= 1; ++z)
-          if (!solid.isValueOn(voxel.offsetBy(x, y, z))) return false;
-    return true;
-  }
-
   void addBodies(const FacesOfSurfaces& faces, float reach, double part) {
     visitFeetOf(faces, reach, true, part,
                 [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& feet) {
@@ -295,8 +285,7 @@ class SoftDensity {
       filter = [this](LimitSink& next) {
         return std::make_unique<ExposedPieces>(*solid_, kDepthOfExposed, next);
       };
-    const bool all = faces.size() == surface.base.mesh.faceCount();
-    cells.addLimitSurface(surface, all ? std::vector<Index>{} : faces, {}, filter, progress_, part);
+    cells.addLimitSurface(surface, faces, {}, filter, progress_, part);
   }
 
   void switchOffEmpty() {

@@ -105,11 +105,8 @@ std::uint8_t turned(std::uint8_t sides) {
 
 void LimitWalk::emit(std::span<const Index> faces, LimitSink& sink) {
   images_.set(faces);
-  const std::size_t points = images_.vFacePoints().size();
-  vFaceKnown_.assign(images_.vFaces().size(), false);
-  vFaceActive_.assign(points, false);
-  for (auto* of : {&vFaceImages_, &vFaceNear_, &vFaceFar_, &vFaceCorner_}) of->resize(points);
-  vFacePlaces_.resize(points);
+  vFaces_.reset(images_);
+  vFacePlaces_.resize(images_.vFacePoints().size());
   Index slot = 0;
   for (const Index f : faces) {
     emitFace(f, slot, sink);
@@ -136,13 +133,12 @@ void LimitWalk::emitFace(Index face, Index firstSlot, LimitSink& sink) {
     const Index vFaceSize = images_.vFace(at.slot()).size;
     bool fine = size == 4 || errorAsQuad(patch, true, facePoints_[i], size) <= tolerance_;
     if (fine && images_.hasVFace(at.slot()) && vFaceSize != 4) {
-      const Index number = images_.vFaceNumber(at.slot());
-      subdivideVFace(number);
-      fine = vFaceSize > 1 &&
-             errorAsQuad(
-                 patch, false,
-                 vFaceImages_[images_.vFaces()[number].begin + images_.placeInVFace(at.slot())],
-                 vFaceSize) <= tolerance_;
+      fine =
+          vFaceSize > 1 &&
+          errorAsQuad(patch, false,
+                      vFaces_.points(
+                          images_, images_.vFaceNumber(at.slot()))[images_.placeInVFace(at.slot())],
+                      vFaceSize) <= tolerance_;
     }
     if (fine) {
       emitPiece(patch, boundarySidesAt(at), at.square(), sink);
@@ -194,21 +190,12 @@ std::uint8_t LimitWalk::boundarySidesAt(const Corner& at) const {
   return static_cast<std::uint8_t>(sides);
 }
 
-void LimitWalk::subdivideVFace(Index number) {
-  if (vFaceKnown_[number]) return;
-  const LocalImages::VFace& vFace = images_.vFaces()[number];
-  if (vFace.size > 1)
-    faceImages_.of(std::span(images_.vFacePoints()).subspan(vFace.begin, vFace.size),
-                   std::span(vFaceImages_).subspan(vFace.begin, vFace.size));
-  vFaceKnown_[number] = true;
-}
-
 /// One step at a level-1 vertex. Emits the children that are regular; the others become active
 /// corners of the face or the V-face in which they lie.
 void LimitWalk::split(const Corner& at, LimitSink& sink) {
   const LocalImages::VFace& vFace = images_.vFace(at.slot());
   VertexSplit split = images_.splitAt(at, facePoints_);
-  splitInVFace(at, split);
+  vFaces_.setImages(images_, at, split);
 
   const std::uint8_t sides = boundarySidesAt(at);
   if (split.hasR)
@@ -231,22 +218,6 @@ void LimitWalk::split(const Corner& at, LimitSink& sink) {
   }
 }
 
-/// Sets the images in the V-face.
-void LimitWalk::splitInVFace(const Corner& at, VertexSplit& split) {
-  split.hasVFace = images_.hasVFace(at.slot());
-  if (!split.hasVFace) return;
-  const Index number = images_.vFaceNumber(at.slot());
-  const LocalImages::VFace& vFace = images_.vFaces()[number];
-  if (vFace.size == 1)
-    return TriangleImages(images_.image(at.slot()), vFace.mStart, vFace.mEnd).setVFace(split);
-  subdivideVFace(number);
-  const Index place = images_.placeInVFace(at.slot());
-  split.vFace0 = vFaceImages_[vFace.begin + place];
-  split.vFaceRight = vFaceImages_[vFace.before(place)];
-  split.vFaceLeft = vFaceImages_[vFace.after(place)];
-  if (vFace.size == 4) split.vFaceOpposite = vFaceImages_[vFace.begin + (place ^ 2U)];
-}
-
 /// Makes the corner an active corner of its face at level 2.
 void LimitWalk::joinFace(const Corner& at, const VertexSplit& split) {
   if (!joined_) {
@@ -264,39 +235,20 @@ void LimitWalk::joinFace(const Corner& at, const VertexSplit& split) {
   places_[i] = {at.square().quarter(true, true), only(boundarySidesAt(at), kSidesInF)};
 }
 
-/// Makes the corner an active corner of its V-face at level 2. In the V-face the next corner lies
-/// across L, so parameters run the other way.
+/// Makes the corner an active corner of its V-face at level 2, in which parameters run the other
+/// way.
 void LimitWalk::joinVFace(const Corner& at, const VertexSplit& split) {
+  vFaces_.join(images_, at, split);
   const LocalImages::VFace& vFace = images_.vFace(at.slot());
-  const Index place = images_.placeInVFace(at.slot());
-  const Index i = vFace.begin + place;
-  const Index j = vFace.before(place);
-  vFaceNear_[i] = split.l[0];
-  vFaceFar_[i] = split.l[3];
-  vFaceNear_[j] = split.r[3];
-  vFaceFar_[j] = split.r[0];
-  vFaceCorner_[i] = split.f0;
-  vFaceActive_[i] = true;
-  vFacePlaces_[i] = {at.square().quarter(false, false).turned(),
-                     turned(only(boundarySidesAt(at), kSidesInVFace))};
+  vFacePlaces_[vFace.begin + images_.placeInVFace(at.slot())] = {
+      at.square().quarter(false, false).turned(), turned(only(boundarySidesAt(at), kSidesInVFace))};
 }
 
 void LimitWalk::emitVFaces(LimitSink& sink) {
   for (const LocalImages::VFace& vFace : images_.vFaces()) {
-    const auto copy = [&](const auto& all, auto& part) {
-      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(vFace.begin);
-      part.assign(begin, begin + static_cast<std::ptrdiff_t>(vFace.size));
-    };
-    vFace_.reset(vFace.size);
-    copy(vFaceActive_, vFace_.active);
-    if (std::find(vFace_.active.begin(), vFace_.active.end(), true) == vFace_.active.end())
-      continue;
-    copy(vFaceImages_, vFace_.inner);
-    copy(vFaceNear_, vFace_.near);
-    copy(vFaceFar_, vFace_.far);
-    copy(vFaceCorner_, vFace_.corner);
-    copy(vFacePlaces_, places_);
-    vFace_.real = vFace.fan;
+    if (!vFaces_.get(vFace, vFace_)) continue;
+    const auto places = std::span(vFacePlaces_).subspan(vFace.begin, vFace.size);
+    places_.assign(places.begin(), places.end());
     emitAround(vFace_, sink);
   }
 }

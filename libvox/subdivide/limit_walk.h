@@ -3,6 +3,7 @@
 #include "libvox/mesh/limit_piece.h"
 #include "libvox/subdivide/extraordinary.h"
 #include "libvox/subdivide/local_images.h"
+#include "libvox/subdivide/v_face_level.h"
 #include "libvox/subdivide/vertex_split.h"
 
 #include <span>
@@ -33,6 +34,8 @@ class LimitWalk {
   explicit LimitWalk(const SubdivisionLevel& base, double tolerance)
       : images_(base), tolerance_(tolerance) {}
 
+  const SubdivisionLevel& base() const { return images_.base(); }
+
   /// Gives the sink the pieces that the corners of some faces own.
   /// @param faces  of the base; the span must stay valid until the next call
   /// @throws LimitError  coordinates are out of range
@@ -47,9 +50,7 @@ class LimitWalk {
   void emitFace(Index face, Index firstSlot, LimitSink& sink);
   Patch patchAt(const Corner& at) const;
   std::uint8_t boundarySidesAt(const Corner& at) const;
-  void subdivideVFace(Index number);
   void split(const Corner& at, LimitSink& sink);
-  void splitInVFace(const Corner& at, VertexSplit& split);
   void joinFace(const Corner& at, const VertexSplit& split);
   void joinVFace(const Corner& at, const VertexSplit& split);
   void emitVFaces(LimitSink& sink);
@@ -65,12 +66,8 @@ class LimitWalk {
   LocalImages images_;
   double tolerance_;
   FaceImages faceImages_;
-  std::vector<Vec3d> facePoints_;   // level 2 in one face
-  std::vector<Vec3d> vFaceImages_;  // level 2 in the V-faces that are known
-  std::vector<std::uint8_t> vFaceKnown_;
-  std::vector<Vec3d> vFaceNear_, vFaceFar_,
-      vFaceCorner_;  // as in ExtraordinaryFace, per point of a V-face
-  std::vector<std::uint8_t> vFaceActive_;
+  std::vector<Vec3d> facePoints_;  // level 2 in one face
+  VFaceLevel vFaces_;
   std::vector<ActivePlace> vFacePlaces_, places_;  // per point of a V-face; of the face at hand
   ExtraordinaryFace around_;                       // the face at level 2, if it is not a quad
   bool joined_ = false;                            // whether around_ has active corners

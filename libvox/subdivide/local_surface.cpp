@@ -10,12 +10,7 @@
 namespace vox {
 void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
   images_.set(faces);
-  const std::size_t vFacePoints = images_.vFacePoints().size();
-  vFaceKnown_.assign(images_.vFaces().size(), false);
-  vFaceDiameters_.resize(images_.vFaces().size());
-  vFaceActive_.assign(vFacePoints, false);
-  for (auto* points : {&vFaceImages_, &vFaceNear_, &vFaceFar_, &vFaceCorner_})
-    points->resize(vFacePoints);
+  vFaces_.reset(images_);
   finished_.clear();
   finishedChildren_.clear();
 
@@ -97,18 +92,18 @@ void LocalSurface::finishChildren(const Corner& at) {
   const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
   const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
   const Vec3d& center = images_.image(at.slot());
-  const LocalImages::VFace& vFace = subdividedVFace(at);
+  const auto inVFace = vFaces_.points(images_, images_.vFaceNumber(at.slot()));
   finishedChildren_.push_back(facePoints_[at.place]);
   finishedChildren_.push_back(quadImage(center, images_.image(at.next()), right.near, right.far));
   finishedChildren_.push_back(quadImage(center, images_.image(at.previous()), left.far, left.near));
-  finishedChildren_.push_back(vFaceImages_[vFace.begin + images_.placeInVFace(at.slot())]);
+  finishedChildren_.push_back(inVFace[images_.placeInVFace(at.slot())]);
 }
 
 /// One step at a level-1 vertex. Emits the children that are regular or fine enough; the others
 /// become active corners of the face or the V-face in which they lie.
 void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
   VertexSplit split = images_.splitAt(at, facePoints_);
-  splitInVFace(at, split);
+  vFaces_.setImages(images_, at, split);
   const ChildSizes sizes = isInside(at) ? childSizes(split) : kUnknownSizes;
 
   const LocalImages::VFace& vFace = images_.vFace(at.slot());
@@ -129,42 +124,13 @@ void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
     joinFace(at, split);
   if (split.hasVFace && vFace.size == 4)
     emitSmall(split.childInVFace(), 2, finishedChildren_, sink);
-  else if (fits(std::max(vFaceDiameters_[images_.vFaceNumber(at.slot())], sizes.vFace)))
+  else if (fits(std::max(vFaces_.diameter(images_.vFaceNumber(at.slot())), sizes.vFace)))
     finishedChildren_.push_back(split.vFace0);
   else if (split.hasVFace && vFace.size > 1)
-    joinVFace(at, split);
+    vFaces_.join(images_, at, split);
   else if (split.hasVFace)
     subdivideBoundaryCorner(
         TriangleImages(images_.image(at.slot()), vFace.mStart, vFace.mEnd).below(split), 2, sink);
-}
-
-/// The V-face of a corner. Computes its points of level 2 if they are not known yet.
-const LocalImages::VFace& LocalSurface::subdividedVFace(const Corner& at) {
-  const LocalImages::VFace& vFace = images_.vFace(at.slot());
-  const Index number = images_.vFaceNumber(at.slot());
-  if (!vFaceKnown_[number]) {
-    const auto images = std::span(vFaceImages_).subspan(vFace.begin, vFace.size);
-    faceImages_.of(std::span(images_.vFacePoints()).subspan(vFace.begin, vFace.size), images);
-    vFaceDiameters_[number] = diameter(images);
-    vFaceKnown_[number] = true;
-  }
-  return vFace;
-}
-
-/// Sets the images in the V-face.
-void LocalSurface::splitInVFace(const Corner& at, VertexSplit& split) {
-  split.hasVFace = images_.hasVFace(at.slot());
-  if (!split.hasVFace) return;
-  if (images_.vFace(at.slot()).size == 1) {
-    const LocalImages::VFace& vFace = images_.vFace(at.slot());
-    return TriangleImages(images_.image(at.slot()), vFace.mStart, vFace.mEnd).setVFace(split);
-  }
-  const LocalImages::VFace& vFace = subdividedVFace(at);
-  const Index place = images_.placeInVFace(at.slot());
-  split.vFace0 = vFaceImages_[vFace.begin + place];
-  split.vFaceRight = vFaceImages_[vFace.before(place)];
-  split.vFaceLeft = vFaceImages_[vFace.after(place)];
-  if (vFace.size == 4) split.vFaceOpposite = vFaceImages_[vFace.begin + (place ^ 2U)];
 }
 
 /// Makes the corner an active corner of its face at level 2.
@@ -182,41 +148,9 @@ void LocalSurface::joinFace(const Corner& at, const VertexSplit& split) {
   around_.hasCorner[i] = split.hasR && split.hasL && split.hasVFace;
 }
 
-/// Makes the corner an active corner of its V-face at level 2. In the V-face the next corner lies
-/// across L.
-void LocalSurface::joinVFace(const Corner& at, const VertexSplit& split) {
-  const LocalImages::VFace& vFace = images_.vFace(at.slot());
-  const Index place = images_.placeInVFace(at.slot());
-  const Index i = vFace.begin + place;
-  const Index j = vFace.before(place);
-  vFaceNear_[i] = split.l[0];
-  vFaceFar_[i] = split.l[3];
-  vFaceNear_[j] = split.r[3];
-  vFaceFar_[j] = split.r[0];
-  vFaceCorner_[i] = split.f0;
-  vFaceActive_[i] = true;
-}
-
 void LocalSurface::emitVFaces(SurfaceSink& sink) {
-  const auto part = [](const auto& all, const LocalImages::VFace& vFace) {
-    return std::span(all).subspan(vFace.begin, vFace.size);
-  };
-  for (const LocalImages::VFace& vFace : images_.vFaces()) {
-    const auto active = part(vFaceActive_, vFace);
-    if (std::find(active.begin(), active.end(), true) == active.end()) continue;
-    const auto copy = [&](const auto& from, auto& to) {
-      const auto points = part(from, vFace);
-      to.assign(points.begin(), points.end());
-    };
-    vFace_.reset(vFace.size);
-    copy(vFaceImages_, vFace_.inner);
-    copy(vFaceNear_, vFace_.near);
-    copy(vFaceFar_, vFace_.far);
-    copy(vFaceCorner_, vFace_.corner);
-    copy(vFaceActive_, vFace_.active);
-    vFace_.real = vFace.fan;
-    extraordinary_.run(vFace_, 2, sink);
-  }
+  for (const LocalImages::VFace& vFace : images_.vFaces())
+    if (vFaces_.get(vFace, vFace_)) extraordinary_.run(vFace_, 2, sink);
 }
 
 /// Emits the boundary points of the boundary edges of a face.

@@ -3,6 +3,7 @@
 #include "libvox/mesh/patch.h"
 #include "libvox/subdivide/extraordinary.h"
 #include "libvox/subdivide/local_images.h"
+#include "libvox/subdivide/v_face_level.h"
 #include "libvox/subdivide/vertex_split.h"
 
 #include <span>
@@ -42,11 +43,8 @@ class LocalSurface {
   static void emitSmall(const Patch& patch, int level, std::vector<Vec3d>& finished,
                         SurfaceSink& sink);
   void finishChildren(const Corner& corner);
-  const LocalImages::VFace& subdividedVFace(const Corner& corner);
   void split(const Corner& corner, SurfaceSink& sink);
-  void splitInVFace(const Corner& corner, VertexSplit& split);
   void joinFace(const Corner& corner, const VertexSplit& split);
-  void joinVFace(const Corner& corner, const VertexSplit& split);
   void emitVFaces(SurfaceSink& sink);
   void emitBoundary(Index f, Index firstSlot, SurfaceSink& sink);
 
@@ -60,15 +58,10 @@ class LocalSurface {
     Corner at;
     bool last;  // its children are fine enough
   };
-  std::vector<Irregular> irregular_;    // corners of one face
-  ExtraordinaryFace around_;            // the face at level 2, if it is not a quad
-  bool joined_ = false;                 // whether around_ has active corners
-  std::vector<Vec3d> vFaceImages_;      // level 2 in the V-faces, if vFaceKnown_
-  std::vector<double> vFaceDiameters_;  // of the images, per V-face
-  std::vector<std::uint8_t> vFaceKnown_;
-  std::vector<Vec3d> vFaceNear_, vFaceFar_,
-      vFaceCorner_;  // as in ExtraordinaryFace, per point of a V-face
-  std::vector<std::uint8_t> vFaceActive_;
+  std::vector<Irregular> irregular_;  // corners of one face
+  ExtraordinaryFace around_;          // the face at level 2, if it is not a quad
+  bool joined_ = false;               // whether around_ has active corners
+  VFaceLevel vFaces_;
   ExtraordinaryFace vFace_;  // a V-face at level 2
   ExtraordinarySubdivision extraordinary_;
 };
