@@ -20,8 +20,8 @@ namespace {
 /// a little off the limit surface.
 constexpr float kFirstReach = 1.25F;
 constexpr double kFootTolerance = 0.007;  // voxels: a foot need not be as near as a distance
-constexpr float kMoreReach = 4;          // times as far in the next pass
-constexpr float kMostReach = 4000;       // voxels
+constexpr float kMoreReach = 4;           // times as far in the next pass
+constexpr float kMostReach = 4000;        // voxels
 
 FootSurfaces::Flat flatTriangles(const PolygonMesh& mesh) {
   FootSurfaces::Flat flat;
