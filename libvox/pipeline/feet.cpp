@@ -43,16 +43,6 @@ FootSurfaces::Flat flatTriangles(const PolygonMesh& mesh) {
   return flat;
 }
 
-/// The bins that hold some voxels.
-std::vector<openvdb::Coord> binsOf(const openvdb::MaskTree& voxels) {
-  std::vector<openvdb::Coord> bins;
-  for (auto leaf = voxels.cbeginLeaf(); leaf; ++leaf)
-    if (!leaf->isEmpty()) bins.push_back(leaf->origin() >> kBinLog2);
-  std::sort(bins.begin(), bins.end());
-  bins.erase(std::unique(bins.begin(), bins.end()), bins.end());
-  return bins;
-}
-
 /// Removes the voxels of a leaf that have a foot.
 void removeFound(const openvdb::Coord& origin, const LeafFeet& feet, openvdb::MaskTree& left) {
   auto* leaf = left.probeLeaf(origin);
@@ -62,6 +52,15 @@ void removeFound(const openvdb::Coord& origin, const LeafFeet& feet, openvdb::Ma
 }
 
 }  // namespace
+
+std::vector<openvdb::Coord> binsOf(const openvdb::MaskTree& voxels) {
+  std::vector<openvdb::Coord> bins;
+  for (auto leaf = voxels.cbeginLeaf(); leaf; ++leaf)
+    if (!leaf->isEmpty()) bins.push_back(leaf->origin() >> kBinLog2);
+  std::sort(bins.begin(), bins.end());
+  bins.erase(std::unique(bins.begin(), bins.end()), bins.end());
+  return bins;
+}
 
 FootSurfaces footSurfaces(std::span<const PreparedSurface> surfaces) {
   FootSurfaces all{surfaces, {}};

@@ -36,6 +36,9 @@ using VisitFeet = std::function<void(const FootBins&, const openvdb::Coord&, con
 void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
                const MemoryBudget& budget, Progress& progress, double part, const VisitFeet& visit);
 
+/// The bins that hold some voxels, ascending.
+std::vector<openvdb::Coord> binsOf(const openvdb::MaskTree& voxels);
+
 /// Collects the surfaces of feet.
 FootSurfaces footSurfaces(std::span<const PreparedSurface> surfaces);
 

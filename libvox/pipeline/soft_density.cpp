@@ -9,7 +9,6 @@
 #include "libvox/foot/nearest_feet.h"
 #include "libvox/grid/enclosed.h"
 #include "libvox/grid/openvdb.h"
-#include "libvox/pipeline/exposed_pieces.h"
 #include "libvox/pipeline/foot_cells.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
@@ -20,9 +19,12 @@
 
 #include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/Prune.h>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -34,7 +36,6 @@ namespace {
 constexpr float kReachOfSolid = 1.1F;
 // Where bodies meet, a voxel crossed by one of them may lie as deep as this in another.
 constexpr float kReachOfSolids = 2;
-constexpr double kDepthOfExposed = 1.7;  // voxels
 // Half a voxel more, for the cubes that a shell crosses.
 constexpr float kReachOfShell = 1.4F;
 
@@ -61,24 +62,27 @@ PlacedFoot placedFoot(const FootBins& bins, const FootPlace& at) {
   return {cell.prism.origin, Jet(cell.surface, at.a, at.b).s, normalAt(bins, at)};
 }
 
-/// Unit normal, of any sign, of the plane that stands for the surface near a voxel: the normal of
-/// the surface, or at edges and boundaries the direction from the foot to the voxel's centre.
-Vec3d planeNormal(const FootBins& bins, const FootPlace& at, const openvdb::Coord& voxel) {
+/// Outward unit normal of the plane that stands for the surface near a voxel: the normal of the
+/// surface, or at edges and boundaries the direction between the foot and the voxel's centre.
+/// @param distance  of the voxel's centre from the surface; negative on the inner side
+Vec3d planeNormal(const FootBins& bins, const FootPlace& at, const openvdb::Coord& voxel,
+                  double distance) {
   const PlacedFoot placed = placedFoot(bins, at);
   const openvdb::Coord step = voxel - placed.origin;
-  const Float3 away = difference(
+  const Float3 fromFoot = difference(
       {static_cast<float>(step[0]), static_cast<float>(step[1]), static_cast<float>(step[2])},
       placed.foot);
-  const Vec3d toVoxel(away[0], away[1], away[2]);
+  const Vec3d toVoxel(fromFoot[0], fromFoot[1], fromFoot[2]);
   const Vec3d normal =
       Vec3d(placed.normal[0], placed.normal[1], placed.normal[2]).stableNormalized();
   constexpr double kLeastDistance = 0.02;  // below, the direction of the foot is not precise
   constexpr double kMostAside = 0.1;       // sine of the angle between both
-  const double distance = toVoxel.norm();
+  const double away = toVoxel.norm();
   const double aside = normal.cross(toVoxel).norm();
-  const bool useNormal = distance < kLeastDistance || aside < kMostAside * distance;
-  if (useNormal && !normal.isZero(0)) return normal;
-  return distance > 0 ? Vec3d(toVoxel / distance) : Vec3d(0, 0, 1);
+  const bool useNormal = away < kLeastDistance || aside < kMostAside * away;
+  if (useNormal && !normal.isZero(0))
+    return normal.dot(toVoxel) * distance < 0 ? Vec3d(-normal) : normal;
+  return away > 0 ? Vec3d(std::copysign(1 / away, distance) * toVoxel) : Vec3d(0, 0, 1);
 }
 
 using VisitLeafFeet = std::function<void(const FootBins&, const openvdb::Coord&, const LeafFeet&)>;
@@ -180,6 +184,7 @@ class SoftDensity {
     const double part = (anySheet ? 0.7 : 1) / static_cast<double>(groups.faces().size());
     const float reach = groups.faces().size() > 1 ? kReachOfSolids : kReachOfSolid;
     for (const FacesOfSurfaces& faces : groups.faces()) addBodies(faces, reach, part);
+    if (!crossings_.empty()) uniteAtCrossings(groups.faces());
     decideUnknown();
     if (anySheet) addShells(sheets, 0.3);
     switchOffEmpty();
@@ -195,25 +200,62 @@ class SoftDensity {
     budget_.take(bytesOfFloats(all), "the density grid", kScatteredAdvice);
     tree_ = std::make_shared<openvdb::FloatTree>(*solid_, 0.0F, value_, openvdb::TopologyCopy());
     tree_->topologyUnion(near_);
-    forEachLeafNear([&](const MaskLeaf& near, const MaskLeaf* mask, float* values) {
+    forEachLeafNear([&](const MaskLeaf& near, const MaskLeaf*, float* values) {
       const openvdb::tree::ValueAccessor<const openvdb::MaskTree> solid(*solid_);
-      for (auto voxel = near.cbeginValueOn(); voxel; ++voxel) {
-        const bool crossed = mask != nullptr && mask->isValueOn(voxel.pos());
-        if (!crossed || !isEnclosed(solid, voxel.getCoord())) values[voxel.pos()] = kUnknown;
-      }
+      for (auto voxel = near.cbeginValueOn(); voxel; ++voxel)
+        if (!isEnclosed(solid, voxel.getCoord())) values[voxel.pos()] = kUnknown;
     });
   }
 
-  /// Voxels that no foot is near.
+  /// Decides the voxels that no part of the surface of the whole comes near: they are inside or
+  /// outside, as their neighbours are.
   void decideUnknown() {
     forEachLeafNear([&](const MaskLeaf& near, const MaskLeaf* mask, float* values) {
       const SolidLeaf solid(*solid_, near.origin());
       for (auto voxel = near.cbeginValueOn(); voxel; ++voxel) {
         float& value = values[voxel.pos()];
         const bool crossed = mask != nullptr && mask->isValueOn(voxel.pos());
-        if (value == kUnknown) value = !crossed && solid.isOn(voxel.pos()) ? value_ : 0;
+        if (value == kUnknown && !crossed) value = solid.isOn(voxel.pos()) ? value_ : 0;
       }
     });
+    std::vector<openvdb::Coord> unknown;
+    std::vector<const MaskLeaf*> leaves;
+    std::as_const(near_).getNodes(leaves);
+    for (const MaskLeaf* leaf : leaves) {
+      const float* const values = tree_->probeConstLeaf(leaf->origin())->buffer().data();
+      for (auto voxel = leaf->cbeginValueOn(); voxel; ++voxel)
+        if (values[voxel.pos()] == kUnknown) unknown.push_back(voxel.getCoord());
+    }
+    while (!unknown.empty()) unknown = undecidedOf(unknown);
+  }
+
+  /// Decides the unknown voxels that have a neighbour with a value.
+  /// @return  the others; none if there would be no progress
+  std::vector<openvdb::Coord> undecidedOf(const std::vector<openvdb::Coord>& unknown) {
+    std::vector<float> decided(unknown.size(), kUnknown);
+    parallelForEach(unknown.size(), 1024, [&](std::size_t i) {
+      const openvdb::tree::ValueAccessor<const openvdb::FloatTree> values(*tree_);
+      int inside = 0;
+      int outside = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        for (const int step : {-1, 1}) {
+          openvdb::Coord next = unknown[i];
+          next[axis] += step;
+          const float value = values.getValue(next);
+          if (value != kUnknown) ++(2 * value > value_ ? inside : outside);
+        }
+      if (inside + outside > 0) decided[i] = inside >= outside ? value_ : 0;
+    });
+    std::vector<openvdb::Coord> left;
+    openvdb::tree::ValueAccessor<openvdb::FloatTree> values(*tree_);
+    for (std::size_t i = 0; i < unknown.size(); ++i)
+      if (decided[i] == kUnknown)
+        left.push_back(unknown[i]);
+      else
+        values.setValueOnly(unknown[i], decided[i]);
+    if (left.size() < unknown.size()) return left;
+    for (const openvdb::Coord& voxel : left) values.setValueOnly(voxel, value_);
+    return {};
   }
 
   /// Calls visit(leaf of near_, leaf of the mask or null, values).
@@ -228,64 +270,102 @@ class SoftDensity {
     });
   }
 
+  /// Raises values to the parts of the voxels in some bodies. Notes the voxels in which the
+  /// surfaces of two groups of bodies cross.
   void addBodies(const FacesOfSurfaces& faces, float reach, double part) {
-    visitFeetOf(faces, reach, true, part,
+    tbb::enumerable_thread_specific<std::vector<openvdb::Coord>> crossings;
+    visitPlanesOf(near_, faces, reach, part,
+                  [&](openvdb::FloatTree::LeafNodeType& leaf, unsigned i, double distance,
+                      const Vec3d& normal) {
+                    float& value = leaf.buffer().data()[i];
+                    if (value == value_) return;
+                    const float next = scaled(coverage(distance, normal));
+                    if (value > 0 && value < value_ && next > 0 && next < value_)
+                      crossings.local().push_back(globalOf(leaf, i));
+                    value = std::max(value, next);
+                  });
+    for (const auto& voxels : crossings)
+      for (const openvdb::Coord& voxel : voxels) crossings_.setValueOn(voxel);
+  }
+
+  /// Sets the values of voxels in which surfaces of bodies cross to the part in any of the bodies.
+  void uniteAtCrossings(const std::vector<FacesOfSurfaces>& groups) {
+    openvdb::Int64Tree samples(crossings_, 0, openvdb::TopologyCopy());
+    for (auto leaf = crossings_.cbeginLeaf(); leaf; ++leaf)
+      for (auto voxel = leaf->cbeginValueOn(); voxel; ++voxel)
+        tree_->setValueOnly(voxel.getCoord(), 0);
+    for (const FacesOfSurfaces& faces : groups)
+      visitPlanesOf(crossings_, faces, kReachOfSolids, 0,
+                    [&](openvdb::FloatTree::LeafNodeType& leaf, unsigned i, double distance,
+                        const Vec3d& normal) {
+                      auto& united = samples.probeLeaf(leaf.origin())->buffer().data()[i];
+                      const auto before = static_cast<std::uint64_t>(united);
+                      const std::uint64_t below = samplesBelow(distance, normal);
+                      float& value = leaf.buffer().data()[i];
+                      value = scaled(unitedPart(double{value / value_}, before,
+                                                coverage(distance, normal), below));
+                      united = static_cast<openvdb::Int64>(before | below);
+                    });
+  }
+
+  using VisitPlane = std::function<void(openvdb::FloatTree::LeafNodeType&, unsigned voxel,
+                                        double distance, const Vec3d& normal)>;
+  /// Visits the planes that stand for the surfaces of some bodies at voxels.
+  void visitPlanesOf(const openvdb::MaskTree& voxels, const FacesOfSurfaces& faces, float reach,
+                     double part, const VisitPlane& visit) {
+    visitFeetOf(voxels, faces, reach, part,
                 [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& feet) {
                   const MaskLeaf* mask = mask_.probeConstLeaf(origin);
                   const SolidLeaf solid(*solid_, origin);
                   auto* leaf = tree_->probeLeaf(origin);
-                  float* const values = leaf->buffer().data();
                   feet.forEachFound([&](unsigned i) {
                     double distance = double{feet.distance[i]};
                     const bool crossed = mask != nullptr && mask->isValueOn(i);
                     if (!crossed && std::abs(distance) >= kCertainSide)
                       distance = std::copysign(distance, solid.isOn(i) ? -1.0 : 1.0);
-                    const Vec3d normal = planeNormal(bins, feet.place[i], globalOf(*leaf, i));
-                    values[i] = std::max(values[i], scaled(coverage(distance, normal)));
+                    if (distance > double{kReachOfSolid}) return;
+                    const openvdb::Coord voxel = globalOf(*leaf, i);
+                    const Vec3d normal = planeNormal(bins, feet.place[i], voxel, distance);
+                    visit(*leaf, i, distance, normal);
                   });
                 });
   }
 
   void addShells(const FacesOfSurfaces& faces, double part) {
-    visitFeetOf(faces, kReachOfShell, false, part,
+    visitFeetOf(near_, faces, kReachOfShell, part,
                 [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& feet) {
                   auto* leaf = tree_->probeLeaf(origin);
                   float* const values = leaf->buffer().data();
                   feet.forEachFound([&](unsigned i) {
-                    const Vec3d normal = planeNormal(bins, feet.place[i], globalOf(*leaf, i));
-                    values[i] = std::max(values[i],
-                                         scaled(shellCoverage(double{feet.distance[i]}, normal)));
+                    const double distance = double{feet.distance[i]};
+                    const Vec3d normal =
+                        planeNormal(bins, feet.place[i], globalOf(*leaf, i), distance);
+                    values[i] = std::max(values[i], scaled(shellCoverage(distance, normal)));
                   });
                 });
   }
 
-  /// Visits the feet, on some faces of each surface, of all voxels near the active ones.
-  /// @param onlyExposed  whether to leave out parts of surfaces within others
-  void visitFeetOf(const FacesOfSurfaces& faces, float reach, bool onlyExposed, double part,
-                   const VisitLeafFeet& visit) {
+  /// Visits the feet of voxels on some faces of each surface.
+  void visitFeetOf(const openvdb::MaskTree& voxels, const FacesOfSurfaces& faces, float reach,
+                   double part, const VisitLeafFeet& visit) {
     constexpr double kPartOfCells = 0.3;
     FootCells cells({.reach = reach, .polynomials = false, .tolerance = 0.01, .newtonStop = 0.02F},
-                    budget_);
+                    &voxels == &near_ ? std::vector<openvdb::Coord>{} : binsOf(voxels), budget_);
     for (std::size_t s = 0; s < surfaces_.size(); ++s)
       if (!faces[s].empty())
-        addCells(surfaces_[s], faces[s], onlyExposed,
+        addCells(surfaces_[s], faces[s],
                  kPartOfCells * part / static_cast<double>(surfaces_.size()), cells);
     const FootBins bins = cells.bins();
     forEachFoot(
-        bins, near_, progress_, (1 - kPartOfCells) * part,
+        bins, voxels, progress_, (1 - kPartOfCells) * part,
         [&](const openvdb::Coord& origin, const LeafFeet& feet) { visit(bins, origin, feet); });
   }
 
-  void addCells(const PreparedSurface& surface, const std::vector<Index>& faces, bool onlyExposed,
-                double part, FootCells& cells) const {
+  void addCells(const PreparedSurface& surface, const std::vector<Index>& faces, double part,
+                FootCells& cells) const {
     if (levelOf(surface.way))
       return cells.addTriangles(trianglesOfLevel(surface, faces, budget_, progress_), 0, progress_);
-    PieceFilter filter;
-    if (onlyExposed)
-      filter = [this](LimitSink& next) {
-        return std::make_unique<ExposedPieces>(*solid_, kDepthOfExposed, next);
-      };
-    cells.addLimitSurface(surface, faces, {}, filter, progress_, part);
+    cells.addLimitSurface(surface, faces, {}, {}, progress_, part);
   }
 
   void switchOffEmpty() {
@@ -315,7 +395,8 @@ class SoftDensity {
   float value_;
   MemoryBudget& budget_;
   Progress& progress_;
-  openvdb::MaskTree near_;  // the voxels that may have a soft value
+  openvdb::MaskTree near_;       // the voxels that may have a soft value
+  openvdb::MaskTree crossings_;  // voxels in which the surfaces of bodies cross
   openvdb::MaskTree::ConstPtr solid_;
   openvdb::FloatTree::Ptr tree_;
 };

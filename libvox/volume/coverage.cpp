@@ -4,6 +4,7 @@
 #include "libvox/volume/coverage.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace vox {
@@ -42,6 +43,24 @@ double coverage(double distance, const Vec3d& normal) {
   const double height = 0.5 - std::abs(distance) / width;
   const double part = height > 0 ? volumeBelow(m / width, height) : 0;
   return distance > 0 ? part : 1 - part;
+}
+
+std::uint64_t samplesBelow(double distance, const Vec3d& normal) {
+  constexpr int kSide = 4;
+  std::uint64_t below = 0;
+  for (int i = 0; i < kSide * kSide * kSide; ++i) {
+    const Vec3d cell(i % kSide, i / kSide % kSide, i / (kSide * kSide));
+    const Vec3d offset = (cell + Vec3d::Constant(0.5)) / kSide - Vec3d::Constant(0.5);
+    if (distance + normal.dot(offset) < 0) below |= std::uint64_t{1} << i;
+  }
+  return below;
+}
+
+double unitedPart(double a, std::uint64_t samplesA, double b, std::uint64_t samplesB) {
+  if (samplesB == 0) return std::max(a, b);
+  const double common = static_cast<double>(std::popcount(samplesA & samplesB)) /
+                        static_cast<double>(std::popcount(samplesB));
+  return std::clamp(a + b * (1 - common), std::max(a, b), 1.0);
 }
 
 double shellCoverage(double distance, const Vec3d& normal) {
