@@ -8,6 +8,7 @@ Or open this file in Blender's Text Editor and run it: File > Import then has "V
 
 import struct
 import sys
+import time
 
 import bpy
 from mathutils import Vector
@@ -15,9 +16,11 @@ from mathutils import Vector
 # Optical depth of one voxel: a shell that thin is to look solid.
 DEPTH_OF_VOXEL = 6.0
 LIGHT = Vector((-0.5, -0.6, 0.62))  # towards the sun, in world space
+TOWARDS_CAMERA = Vector((0.35, -0.85, 0.35))  # from the front, a bit above and to the right
 # Of out.png. Blender's own 1920 x 1080 pixels of 4096 samples would take hours.
-PICTURE_SIZE = 960, 540
-PICTURE_SAMPLES = 64
+PICTURE_SIZE = 800, 600
+PICTURE_SAMPLES = 48
+PICTURE_SECONDS = 40  # then the picture is done, with fewer samples
 
 
 def grids_of(volume):
@@ -28,15 +31,15 @@ def grids_of(volume):
     return {grid.name: grid for grid in grids}
 
 
-def gain_of(path):
-    """The value of density at the voxels of a file of vox; 1 if the file does not say.
+def metadata_of(path):
+    """The metadata of a file: values as bytes, by name.
 
     A .vdb begins with 21 bytes of magic number, versions and flags and 36 of a unique name. Then it
     counts its metadata, each a name, a type and a value, all with their lengths before them.
     """
     with open(path, "rb") as file:
         if file.read(21 + 36)[:4] != b" BDV":
-            return 1.0
+            return {}
 
         def sized():
             return file.read(struct.unpack("<I", file.read(4))[0])
@@ -44,22 +47,26 @@ def gain_of(path):
         (count,) = struct.unpack("<I", file.read(4))
         metadata = {}
         for _ in range(count):
-            name, kind = sized(), sized()
-            metadata[name, kind] = sized()
-    return struct.unpack("<f", metadata.get((b"vox_gain", b"float"), struct.pack("<f", 1)))[0]
+            name, _ = sized(), sized()
+            metadata[name.decode()] = sized()
+    return metadata
 
 
 def add_material(volume):
     """A material of the grids that are there.
 
-    The grid color is 0 outside the voxels, and so is density: where Blender mixes neighbours,
-    color / (density / gain) is the colour of those voxels that are there. With the grid normal, the light is
-    computed by the material; without, the volume scatters the light of the scene.
+    Blender mixes the values of neighbours. Around a soft density, the grid color goes on for a voxel: what is
+    mixed are colours. Around a hard one, color is 0, and so is density: then color / (density / gain) is the
+    colour of those voxels that are there. With the grid normal, the light is computed by the material;
+    without, the volume scatters the light of the scene.
     """
     grids = grids_of(volume)
     if "density" not in grids:
         raise RuntimeError(f"{volume.data.filepath} has no grid density; add it to --grids")
     voxel = max(grids["density"].matrix_object.to_scale())
+    metadata = metadata_of(bpy.path.abspath(volume.data.filepath))
+    (gain,) = struct.unpack("<f", metadata.get("vox_gain", struct.pack("<f", 1)))
+    is_soft = metadata.get("vox_edge") == b"soft"
     material = bpy.data.materials.new(volume.name)
     material.use_nodes = True
     nodes, links = material.node_tree.nodes, material.node_tree.links
@@ -83,7 +90,7 @@ def add_material(volume):
 
     value = node("ShaderNodeAttribute", (-1150, 0), attribute_name="density")
     density = node("ShaderNodeMath", (-900, 0), operation="DIVIDE")
-    density.inputs[1].default_value = gain_of(bpy.path.abspath(volume.data.filepath))
+    density.inputs[1].default_value = gain
     links.new(value.outputs["Fac"], density.inputs[0])
     depth = node("ShaderNodeMath", (-200, -200), operation="MULTIPLY")
     depth.inputs[1].default_value = DEPTH_OF_VOXEL / voxel
@@ -95,8 +102,9 @@ def add_material(volume):
     color = None
     if "color" in grids:
         attribute = node("ShaderNodeAttribute", (-900, 250), attribute_name="color")
-        divided = vector_math("DIVIDE", (-650, 250), attribute.outputs["Vector"], density.outputs[0])
-        color = divided.outputs[0]
+        color = attribute.outputs["Vector"]
+        if not is_soft:
+            color = vector_math("DIVIDE", (-650, 250), color, density.outputs[0]).outputs[0]
         links.new(color, shader.inputs["Color"])
     if "normal" in grids:
         attribute = node("ShaderNodeAttribute", (-900, 500), attribute_name="normal")
@@ -143,8 +151,7 @@ def frame(volume):
         scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
         scene.collection.objects.link(scene.camera)
     camera = scene.camera
-    away = Vector((0.55, -0.75, 0.45)).normalized()
-    camera.rotation_euler = (-away).to_track_quat("-Z", "Y").to_euler()
+    camera.rotation_euler = (-TOWARDS_CAMERA).to_track_quat("-Z", "Y").to_euler()
     bpy.context.view_layer.update()
     coordinates = [x for corner in corners for x in corner]
     camera.location, _ = camera.camera_fit_coords(bpy.context.evaluated_depsgraph_get(), coordinates)
@@ -186,20 +193,42 @@ def menu_entry(menu, context):
     menu.layout.operator(ImportVoxelModel.bl_idname)
 
 
+def render_picture(path):
+    """Writes a picture of the scene. Tells every few seconds how far it is."""
+    scene = bpy.context.scene
+    scene.cycles.samples = PICTURE_SAMPLES
+    scene.cycles.time_limit = PICTURE_SECONDS
+    scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
+    scene.render.filepath = path
+    start = time.monotonic()
+    last_told = start
+
+    def tell(stats):
+        nonlocal last_told
+        now = time.monotonic()
+        if now - last_told >= 5:
+            last_told = now
+            print(f"vox_import: {now - start:.0f} s of at most about {PICTURE_SECONDS}", flush=True)
+
+    bpy.app.handlers.render_stats.append(tell)
+    bpy.ops.render.render(write_still=True)
+    bpy.app.handlers.render_stats.remove(tell)
+    print(f"vox_import: wrote {path} after {time.monotonic() - start:.0f} s", flush=True)
+
+
 def main(arguments):
     if not arguments:
         bpy.utils.register_class(ImportVoxelModel)
         bpy.types.TOPBAR_MT_file_import.append(menu_entry)
         return
     make_way()
-    frame(import_vdb(arguments[0]))
+    volume = import_vdb(arguments[0])
+    scene = bpy.context.scene
     if len(arguments) > 1:
-        scene = bpy.context.scene
         scene.render.resolution_x, scene.render.resolution_y = PICTURE_SIZE
-        scene.cycles.samples = PICTURE_SAMPLES
-        scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
-        scene.render.filepath = arguments[1]
-        bpy.ops.render.render(write_still=True)
+    frame(volume)
+    if len(arguments) > 1:
+        render_picture(arguments[1])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,11 @@
 #include "libvox/pipeline/grids.h"
 #include "libvox/volume/color.h"
 
+#include <openvdb/tools/Morphology.h>
+#include <openvdb/tools/Prune.h>
+
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -18,15 +22,6 @@ namespace {
 
 openvdb::Vec3f asFloats(const Vec3d& color) {
   return {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2])};
-}
-
-void paintTexture(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
-                  const PlacedTexture& placed) {
-  const openvdb::math::Transform& transform = color.transform();
-  paint(color, voxels, [&](const openvdb::Coord& voxel) {
-    const Vec3d world(transform.indexToWorld(voxel).asPointer());
-    return asFloats(placed.texture.colorAt(placed.fromWorld * world));
-  });
 }
 
 /// The colours of the corners of a mesh; none if it has no colours.
@@ -81,22 +76,79 @@ class MeshColors {
   std::vector<Index> faceOf_;  // of each corner
 };
 
-void paintMeshColors(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels,
-                     const PreparedSurface& surface, const MeshColors& colors,
-                     const MemoryBudget& budget, Progress& progress, double part) {
-  const FootSurfaces feet = footSurfaces({&surface, 1});
-  const auto colorAt = [&](const FootBins& bins, const FootPlace& at) {
-    if (at.cell->kind == CellKind::kTriangle)
-      return colors.at(&feet.flat[0].corners[std::size_t{3} * at.cell->owner], at.a, at.b);
-    const SurfacePlace place = placeAt(bins, at);
-    return colors.at(at.cell->owner, place.u, place.v);
+/// The colours of objects: of their textures at voxels, or of their meshes at feet.
+class ObjectColors {
+ public:
+  ObjectColors(std::span<const PreparedSurface> surfaces, const openvdb::math::Transform& transform)
+      : feet_(footSurfaces(surfaces)), transform_(transform) {
+    std::uint32_t owners = 0;
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+      const PolygonMesh& mesh = surfaces[s].base.mesh;
+      std::vector<Vec3d> corners = cornerColors(mesh);
+      Object& object = objects_.emplace_back();
+      object.firstOwner = owners;
+      if (!surfaces[s].texture && !corners.empty()) object.colors.emplace(mesh, std::move(corners));
+      const std::size_t triangles = feet_.flat[s].triangles.faceCount();
+      owners += static_cast<std::uint32_t>(triangles > 0 ? triangles : mesh.cornerCount());
+    }
+  }
+
+  /// @param object  with a texture
+  openvdb::Vec3f ofTexture(std::size_t object, const openvdb::Coord& voxel) const {
+    const PlacedTexture& placed = *feet_.surfaces[object].texture;
+    const Vec3d world(transform_.indexToWorld(voxel).asPointer());
+    return asFloats(placed.texture.colorAt(placed.fromWorld * world));
+  }
+  bool hasMeshColors(std::size_t object) const { return objects_[object].colors.has_value(); }
+
+  /// Paints voxels with the colours of the objects that they are closest to.
+  void paintByFeet(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels, float reach,
+                   const MemoryBudget& budget, Progress& progress, double part) const {
+    visitFeet(feet_, voxels, reach, budget, progress, part,
+              [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& feet) {
+                auto* const leaf = color.tree().probeLeaf(origin);
+                feet.forEachFound([&](unsigned i) {
+                  leaf->buffer().data()[i] =
+                      atFoot(bins, feet.place[i], leaf->offsetToGlobalCoord(i));
+                });
+              });
+  }
+
+ private:
+  struct Object {
+    std::uint32_t firstOwner = 0;  // of its cells
+    std::optional<MeshColors> colors;
   };
-  visitFeet(feet, voxels, budget, progress, part,
-            [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
-              openvdb::Vec3s* const values = color.tree().probeLeaf(origin)->buffer().data();
-              leafFeet.forEachFound(
-                  [&](unsigned i) { values[i] = asFloats(colorAt(bins, leafFeet.place[i])); });
-            });
+
+  openvdb::Vec3f atFoot(const FootBins& bins, const FootPlace& at,
+                        const openvdb::Coord& voxel) const {
+    const auto next =
+        std::upper_bound(objects_.begin(), objects_.end(), at.cell->owner,
+                         [](std::uint32_t owner, const Object& o) { return owner < o.firstOwner; });
+    const auto number = static_cast<std::size_t>(next - objects_.begin()) - 1;
+    if (feet_.surfaces[number].texture) return ofTexture(number, voxel);
+    const Object& object = objects_[number];
+    if (!object.colors) return openvdb::Vec3f(kPlainColor);
+    const std::uint32_t owner = at.cell->owner - object.firstOwner;
+    if (at.cell->kind == CellKind::kTriangle)
+      return asFloats(
+          object.colors->at(&feet_.flat[number].corners[std::size_t{3} * owner], at.a, at.b));
+    const SurfacePlace place = placeAt(bins, at);
+    return asFloats(object.colors->at(owner, place.u, place.v));
+  }
+
+  FootSurfaces feet_;
+  const openvdb::math::Transform& transform_;
+  std::vector<Object> objects_;
+};
+
+/// The voxels of a mask, and one more on all sides.
+openvdb::MaskGrid::Ptr grown(const openvdb::MaskGrid& mask) {
+  auto voxels = std::make_shared<openvdb::MaskTree>(mask.tree());
+  openvdb::tools::dilateActiveValues(*voxels, 1, openvdb::tools::NN_FACE_EDGE_VERTEX);
+  auto grid = openvdb::MaskGrid::create(voxels);
+  grid->setTransform(mask.transform().copy());
+  return grid;
 }
 
 }  // namespace
@@ -113,20 +165,38 @@ std::optional<PlacedTexture> placedTexture(const std::optional<TextureSpec>& tex
   return PlacedTexture{SolidTexture(*texture, extent), fromWorld * Eigen::Affine3d(back)};
 }
 
-openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask,
+openvdb::GridBase::Ptr makeColorGrid(const openvdb::MaskGrid& mask, const openvdb::MaskGrid* soft,
                                      std::span<const PreparedSurface> surfaces,
                                      MemoryBudget& budget, Progress& progress) {
-  budget.take(bytesOfVectors(mask.tree()), "the color grid", kScatteredAdvice);
-  auto color = colorGrid(mask);
-  for (const PreparedSurface& surface : surfaces) {
-    const openvdb::MaskTree& voxels = surface.voxels ? *surface.voxels : mask.tree();
+  const openvdb::MaskGrid::ConstPtr around = soft != nullptr ? grown(*soft) : nullptr;
+  const openvdb::MaskGrid& all = around ? *around : mask;
+  budget.take(bytesOfVectors(all.tree()), "the color grid", kScatteredAdvice);
+  auto color = colorGrid(all);
+  if (around) {
+    openvdb::MaskTree others(around->tree());
+    others.topologyDifference(mask.tree());
+    openvdb::tools::pruneInactive(others);
+    ObjectColors(surfaces, color->transform())
+        .paintByFeet(*color, others, kReachOfSoft + 1, budget, progress, 0.5);
+  }
+  const double part = (around ? 0.5 : 1) / static_cast<double>(surfaces.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
     progress.check();
-    std::vector<Vec3d> colors = cornerColors(surface.base.mesh);
-    if (surface.texture)
-      paintTexture(*color, voxels, *surface.texture);
-    else if (!colors.empty())
-      paintMeshColors(*color, voxels, surface, MeshColors(surface.base.mesh, std::move(colors)),
-                      budget, progress, 1.0 / static_cast<double>(surfaces.size()));
+    openvdb::MaskTree::ConstPtr voxels =
+        surfaces[i].voxels ? surfaces[i].voxels : mask.constTreePtr();
+    if (around) {
+      auto kept = std::make_shared<openvdb::MaskTree>(*voxels);
+      kept->topologyIntersection(around->tree());
+      voxels = kept;
+    }
+    const ObjectColors colors(surfaces.subspan(i, 1), color->transform());
+    if (surfaces[i].texture)
+      paint(*color, *voxels,
+            [&](const openvdb::Coord& voxel) { return colors.ofTexture(0, voxel); });
+    else if (colors.hasMeshColors(0))
+      colors.paintByFeet(*color, *voxels, kReachOfCrossed, budget, progress, part);
+    else if (around)
+      paint(*color, *voxels, [](const openvdb::Coord&) { return openvdb::Vec3f(kPlainColor); });
   }
   return color;
 }

@@ -18,12 +18,14 @@
 #include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/prepare_scene.h"
 #include "libvox/pipeline/refine.h"
+#include "libvox/pipeline/soft_density.h"
 #include "libvox/pipeline/surface.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <span>
 
 namespace vox {
@@ -127,6 +129,15 @@ openvdb::MaskGrid::Ptr markObjects(const Scene& scene, const Request& request,
   return marker.take();
 }
 
+/// The order in which grids are made: densities first, because others may cover their voxels.
+std::vector<std::size_t> orderOf(const std::vector<GridKind>& kinds) {
+  std::vector<std::size_t> order(kinds.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t i) { return kinds[i] == GridKind::kDensity; });
+  return order;
+}
+
 /// A grid with its name and metadata.
 openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
                                 const VolumeSettings& volume, const openvdb::MetaMap& metadata) {
@@ -167,12 +178,18 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
     mask->transform().postTranslate(openvdb::Vec3d(-prepared.transform.voxelSize / 2));
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, request, report);
-  for (const GridKind kind : request.grids) {
+  openvdb::MaskGrid::Ptr soft;
+  result.grids.resize(request.grids.size());
+  for (const std::size_t i : orderOf(request.grids)) {
+    const GridKind kind = request.grids[i];
     const double work = workOfGrids(prepared.areas, std::array{kind}, volume.edge);
     progress.begin("grids", kind == GridKind::kSurface && !marks ? work / 2 : work);
-    result.grids.push_back(finished(makeGrid(kind, {mask, prepared.surfaces, markVoxels}, volume,
-                                             prepared.budget, progress, report.warnings),
-                                    kind, volume, metadata));
+    const openvdb::GridBase::Ptr grid =
+        makeGrid(kind, {mask, prepared.surfaces, markVoxels, soft}, volume, prepared.budget,
+                 progress, report.warnings);
+    if (kind == GridKind::kDensity && volume.edge == Edge::kSoft)
+      soft = softVoxels(*openvdb::gridPtrCast<openvdb::FloatGrid>(grid), *mask);
+    result.grids[i] = finished(grid, kind, volume, metadata);
   }
   if (!marks) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
@@ -243,7 +260,8 @@ void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* p
   openvdb::MetaMap metadata;
   metadata.insertMeta("creator", openvdb::StringMetadata(std::string("vox ") + version()));
   for (const auto& grid : conversion.grids)
-    if (const auto gain = (*grid)[kGainMetadata]) metadata.insertMeta(kGainMetadata, *gain);
+    for (const char* key : {kGainMetadata, kEdgeMetadata})
+      if (const auto value = (*grid)[key]) metadata.insertMeta(key, *value);
   if (progress == nullptr)
     return writeVdb(stream, conversion.grids, metadata, conversion.compression);
   progress->beginLast("write");

@@ -16,9 +16,6 @@
 namespace vox {
 namespace {
 
-/// A voxel that a surface crosses is nearer than sqrt(3) / 2; a vertex that switched it on may lie
-/// a little off the limit surface.
-constexpr float kFirstReach = 1.25F;
 constexpr double kFootTolerance = 0.007;  // voxels: a foot need not be as near as a distance
 constexpr float kMoreReach = 4;           // times as far in the next pass
 constexpr float kMostReach = 4000;        // voxels
@@ -70,15 +67,15 @@ FootSurfaces footSurfaces(std::span<const PreparedSurface> surfaces) {
   return all;
 }
 
-void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
+void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels, float firstReach,
                const MemoryBudget& budget, Progress& progress, double part,
                const VisitFeet& visit) {
   constexpr double kPartOfCells = 0.4;
   openvdb::MaskTree left(voxels);
-  for (float reach = kFirstReach; reach <= kMostReach && !left.empty(); reach *= kMoreReach) {
+  for (float reach = firstReach; reach <= kMostReach && !left.empty(); reach *= kMoreReach) {
     const CellOptions cellOptions{
         .reach = reach, .polynomials = false, .tolerance = kFootTolerance, .newtonStop = 0.02F};
-    FootCells cells(cellOptions, reach > kFirstReach ? binsOf(left) : std::vector<openvdb::Coord>{},
+    FootCells cells(cellOptions, reach > firstReach ? binsOf(left) : std::vector<openvdb::Coord>{},
                     budget);
     for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {
       const FootSurfaces::Flat& flat = surfaces.flat[s];

@@ -25,15 +25,22 @@ struct FootSurfaces {
   std::vector<Flat> flat;
 };
 
+/// How far feet are first looked for, in voxels. A voxel that a surface crosses is nearer than
+/// sqrt(3) / 2; a vertex that switched it on may lie a little off the limit surface.
+inline constexpr float kReachOfCrossed = 1.25F;
+/// Of voxels around these.
+inline constexpr float kReachOfSoft = 2.7F;
+
 /// Calls visit(bins, origin of a leaf, feet) until every voxel had a foot, if it has one at all:
 /// first near the surface, then, for voxels that are left over, farther and farther away. From any
 /// thread; twice for a leaf only if other voxels have a foot.
 /// @param voxels  without tiles
+/// @param reach   how far feet are first looked for
 /// @param part    the share of this in the current stage of `progress`
 /// @throws LimitError
 /// @throws Cancelled
 using VisitFeet = std::function<void(const FootBins&, const openvdb::Coord&, const LeafFeet&)>;
-void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels,
+void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels, float reach,
                const MemoryBudget& budget, Progress& progress, double part, const VisitFeet& visit);
 
 /// The bins that hold some voxels, ascending.

@@ -7,6 +7,7 @@
 #include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/distance.h"
+#include "libvox/pipeline/feet.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/normals.h"
 #include "libvox/pipeline/soft_density.h"
@@ -93,7 +94,7 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
                                 const VolumeSettings& volume, MemoryBudget& budget,
                                 Progress& progress, std::vector<std::string>& warnings) {
   progress.check();
-  const auto& [mask, surfaces, markVoxels] = sources;
+  const auto& [mask, surfaces, markVoxels, soft] = sources;
   switch (kind) {
     case GridKind::kMask:
       break;
@@ -103,9 +104,10 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
       return surfaceGrid(surfaces, volume, mask->transform(), markVoxels, budget, progress,
                          warnings);
     case GridKind::kNormal:
-      return makeNormalGrid(*mask, surfaces, budget, progress);
+      return makeNormalGrid(soft ? *soft : *mask, surfaces, soft ? kReachOfSoft : kReachOfCrossed,
+                            budget, progress);
     case GridKind::kColor:
-      return makeColorGrid(*mask, surfaces, budget, progress);
+      return makeColorGrid(*mask, soft.get(), surfaces, budget, progress);
   }
   return mask;
 }

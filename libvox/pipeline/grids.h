@@ -31,6 +31,8 @@ struct GridSources {
   std::shared_ptr<openvdb::MaskGrid> mask;  ///< active voxels; empty unless a grid needs them
   std::span<const PreparedSurface> surfaces;
   MarkVoxels markVoxels;  ///< makes the active voxels of all surfaces if the mask is empty
+  /// The voxels of a soft density near the surface (soft_density.h); null if there is none.
+  std::shared_ptr<openvdb::MaskGrid> soft = nullptr;
 };
 
 /// The output grid of a kind.

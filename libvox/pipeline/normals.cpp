@@ -22,16 +22,16 @@ openvdb::Vec3s directionOf(const Float3& v) {
 
 }  // namespace
 
-openvdb::Vec3SGrid::Ptr makeNormalGrid(const openvdb::MaskGrid& mask,
-                                       std::span<const PreparedSurface> surfaces,
+openvdb::Vec3SGrid::Ptr makeNormalGrid(const openvdb::MaskGrid& voxels,
+                                       std::span<const PreparedSurface> surfaces, float reach,
                                        MemoryBudget& budget, Progress& progress) {
-  budget.take(bytesOfVectors(mask.tree()), "the normal grid",
+  budget.take(bytesOfVectors(voxels.tree()), "the normal grid",
               "leave it out, use larger voxels, or raise --max-memory");
-  auto grid = vectorGrid(mask, 0);
+  auto grid = vectorGrid(voxels, 0);
   grid->setName("normal");
   grid->setVectorType(openvdb::VEC_COVARIANT_NORMALIZE);
   const FootSurfaces feet = footSurfaces(surfaces);
-  visitFeet(feet, mask.tree(), budget, progress, 1,
+  visitFeet(feet, voxels.tree(), reach, budget, progress, 1,
             [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& leafFeet) {
               openvdb::Vec3s* const values = grid->tree().probeLeaf(origin)->buffer().data();
               leafFeet.forEachFound(

@@ -14,11 +14,13 @@ class Progress;
 /// The grid `normal`: at each voxel the exact normal of the limit surface at the point closest to
 /// the middle of the voxel; of objects that are not smoothed, the normal of the polygon there. Unit
 /// vectors, outward; 0 where the surface has no normal. Source: paper section 8; DESIGN section 18.
-/// @param mask  active voxels of all surfaces, without tiles
+/// @param voxels  of the grid, without tiles
+/// @param reach   of feet (feet.h), voxels
 /// @throws LimitError
 /// @throws Cancelled
-std::shared_ptr<openvdb::Vec3SGrid> makeNormalGrid(const openvdb::MaskGrid& mask,
+std::shared_ptr<openvdb::Vec3SGrid> makeNormalGrid(const openvdb::MaskGrid& voxels,
                                                    std::span<const PreparedSurface> surfaces,
-                                                   MemoryBudget& budget, Progress& progress);
+                                                   float reach, MemoryBudget& budget,
+                                                   Progress& progress);
 
 }  // namespace vox

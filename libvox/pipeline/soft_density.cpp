@@ -33,6 +33,7 @@ namespace {
 
 // The cubes that a plane crosses are nearer than sqrt(3) / 2, and vertices that switched voxels on
 // may lie a little off the limit surface.
+constexpr double kReachOfCube = 0.867;
 constexpr float kReachOfSolid = 1.1F;
 // Where bodies meet, a voxel crossed by one of them may lie as deep as this in another.
 constexpr float kReachOfSolids = 2;
@@ -326,9 +327,16 @@ class SoftDensity {
                     if (distance > double{kReachOfSolid}) return;
                     const openvdb::Coord voxel = globalOf(*leaf, i);
                     const Vec3d normal = planeNormal(bins, feet.place[i], voxel, distance);
+                    if (distance < -kReachOfCube && !isSolidBelow(voxel, normal)) return;
                     visit(*leaf, i, distance, normal);
                   });
                 });
+  }
+
+  /// Whether the next voxel inward is solid, too. Near a wall without thickness, a foot beyond the
+  /// voxel's cube may have the voxel on its inner side and yet not enclose it.
+  bool isSolidBelow(const openvdb::Coord& voxel, const Vec3d& normal) const {
+    return solid_->isValueOn(voxel - openvdb::Coord::round(openvdb::Vec3d(normal.data())));
   }
 
   void addShells(const FacesOfSurfaces& faces, double part) {
@@ -407,7 +415,20 @@ openvdb::FloatGrid::Ptr softDensityGrid(const openvdb::MaskTree& mask,
                                         std::span<const PreparedSurface> surfaces, Fill fill,
                                         float value, MemoryBudget& budget, Progress& progress) {
   SoftDensity density(mask, surfaces, value, budget, progress);
-  return densityGrid(fill == Fill::kSolid ? density.solid() : density.shells());
+  auto grid = densityGrid(fill == Fill::kSolid ? density.solid() : density.shells());
+  grid->insertMeta(kEdgeMetadata, openvdb::StringMetadata("soft"));
+  return grid;
+}
+
+openvdb::MaskGrid::Ptr softVoxels(const openvdb::FloatGrid& density,
+                                  const openvdb::MaskGrid& mask) {
+  auto voxels = std::make_shared<openvdb::MaskTree>(mask.tree());
+  openvdb::tools::dilateActiveValues(*voxels, 1, openvdb::tools::NN_FACE_EDGE_VERTEX);
+  voxels->topologyIntersection(density.tree());
+  openvdb::tools::pruneInactive(*voxels);
+  auto grid = openvdb::MaskGrid::create(voxels);
+  grid->setTransform(mask.transform().copy());
+  return grid;
 }
 
 }  // namespace vox

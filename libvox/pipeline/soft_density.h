@@ -25,4 +25,12 @@ std::shared_ptr<openvdb::FloatGrid> softDensityGrid(const openvdb::MaskTree& mas
                                                     Fill fill, float value, MemoryBudget& budget,
                                                     Progress& progress);
 
+/// Name of the metadata, of a soft density and of its file, that tells that it is "soft".
+inline constexpr const char* kEdgeMetadata = "vox_edge";
+
+/// The active voxels of a soft density that are at most one voxel from those of the mask: all of
+/// them, but for those deeper in a solid. Without tiles, with the transform of the mask.
+std::shared_ptr<openvdb::MaskGrid> softVoxels(const openvdb::FloatGrid& density,
+                                              const openvdb::MaskGrid& mask);
+
 }  // namespace vox
