@@ -6,6 +6,7 @@
 #include "libvox/pipeline/convert.h"
 #include "libvox/prepare/enclosure.h"
 #include "libvox/subdivide/doo_sabin.h"
+#include "libvox/volume/texture.h"
 #include "tests/conversion.h"
 #include "tests/scenes.h"
 #include "tests/shapes.h"
@@ -13,9 +14,14 @@
 
 #include <catch2/catch.hpp>
 #include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/Morphology.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 using namespace vox;
@@ -232,5 +238,106 @@ TEST_CASE("thread count never changes soft densities", "[soft][parallel]") {
       options.run.threads = threads;
       CHECK(test::bytesOf(convert(scene, options)) == first);
     }
+  }
+}
+
+namespace {
+
+openvdb::MaskTree::Ptr grownTopology(const openvdb::GridBase& grid, int voxels) {
+  openvdb::MaskTree::Ptr tree;
+  grid.apply<openvdb::TypeList<openvdb::FloatGrid, openvdb::Vec3SGrid>>([&](const auto& typed) {
+    tree = std::make_shared<openvdb::MaskTree>(typed.tree(), false, true, openvdb::TopologyCopy());
+  });
+  if (voxels > 0)
+    openvdb::tools::dilateActiveValues(*tree, voxels, openvdb::tools::NN_FACE_EDGE_VERTEX);
+  return tree;
+}
+
+bool haveSameVoxels(const openvdb::MaskTree& a, const openvdb::MaskTree& b) {
+  openvdb::MaskTree onlyA(a);
+  onlyA.topologyDifference(b);
+  return onlyA.activeVoxelCount() == 0 && a.activeVoxelCount() == b.activeVoxelCount();
+}
+
+}  // namespace
+
+TEST_CASE("normals cover a soft density, and colours one voxel more", "[soft][property]") {
+  ConvertOptions options = softOptions(Fill::kSurface, 1.0 / 20);
+  options.grids = std::vector{GridKind::kColor, GridKind::kNormal, GridKind::kDensity};
+  const Scene scene =
+      test::sceneOf({test::dodecahedron(), test::moved(test::torusGrid(9, 6), Vec3d(3, 0, 0)),
+                     test::sheet(4, 3)});
+  const Conversion made = convert(scene, options);
+  REQUIRE(namesOf(made) == std::vector<std::string>{"color", "normal", "density"});
+  CHECK(haveSameVoxels(*grownTopology(*made.grids[1], 0), *grownTopology(*made.grids[2], 0)));
+  CHECK(haveSameVoxels(*grownTopology(*made.grids[0], 0), *grownTopology(*made.grids[2], 1)));
+  const auto normals = openvdb::gridPtrCast<openvdb::Vec3SGrid>(made.grids[1]);
+  for (auto normal = normals->cbeginValueOn(); normal; ++normal)
+    REQUIRE(normal->length() == Approx(1).epsilon(1e-5));
+
+  options.volume.fill = Fill::kSolid;
+  const Conversion solid = convert(scene, options);
+  options.grids = std::vector{GridKind::kMask};
+  const Conversion surface = convert(scene, options);
+  openvdb::MaskTree near(test::maskOf(surface).tree());
+  openvdb::tools::dilateActiveValues(near, 1, openvdb::tools::NN_FACE_EDGE_VERTEX);
+  near.topologyIntersection(*grownTopology(*solid.grids[2], 0));
+  CHECK(haveSameVoxels(*grownTopology(*solid.grids[1], 0), near));
+  openvdb::tools::dilateActiveValues(near, 1, openvdb::tools::NN_FACE_EDGE_VERTEX);
+  CHECK(haveSameVoxels(*grownTopology(*solid.grids[0], 0), near));
+}
+
+TEST_CASE("colours around a soft density are those of the closest object", "[soft]") {
+  PolygonMesh red = test::cube();
+  red.faceColors.assign(red.faceCount(), Eigen::Vector3f(1, 0, 0));
+  const double size = 0.1;
+  for (const std::optional<int> levels : {std::optional<int>(), std::optional<int>(0)}) {
+    Scene scene = test::sceneOf({red, test::moved(test::cube(), Vec3d(5, 0, 0)),
+                                 test::moved(test::cube(), Vec3d(10, 0, 0))});
+    scene.objects[1].texture = parseTexture("checker:colors=0:0:1/0:0:1");
+    for (const Fill fill : {Fill::kSurface, Fill::kSolid}) {
+      ConvertOptions options = softOptions(fill, size);
+      options.grids = std::vector{GridKind::kColor, GridKind::kDensity};
+      if (levels) options.until = StopRule{.levels = *levels};
+      const Conversion made = convert(scene, options);
+      const auto& colors = test::colorOf(made);
+      for (auto color = colors.cbeginValueOn(); color; ++color) {
+        const double x = color.getCoord().x() * size;
+        const openvdb::Vec3f expected = x < 2.5   ? openvdb::Vec3f(1, 0, 0)
+                                        : x < 7.5 ? openvdb::Vec3f(0, 0, 1)
+                                                  : openvdb::Vec3f(0.8F);
+        REQUIRE((*color - expected).length() < 1e-5F);
+      }
+    }
+  }
+}
+
+namespace {
+
+bool isSoft(const Conversion& conversion) {
+  const auto edge = (*conversion.grids[0])["vox_edge"];
+  return edge && edge->str() == "soft";
+}
+
+}  // namespace
+
+TEST_CASE("densities are soft for Blender and hard for Houdini unless asked", "[soft]") {
+  for (const auto& [target, soft] :
+       {std::pair(Target::kBlender, true), std::pair(Target::kBlender34, true),
+        std::pair(Target::kHoudini, false)}) {
+    ConvertOptions options;
+    options.voxelSize = 0.1;
+    options.volume.target = target;
+    const Scene scene = test::oneObject(test::cube());
+    const auto byDefault = convert(scene, options);
+    CHECK(isSoft(byDefault) == soft);
+    options.volume.edge = soft ? Edge::kHard : Edge::kSoft;
+    CHECK(isSoft(convert(scene, options)) != soft);
+    options.volume.edge = soft ? Edge::kSoft : Edge::kHard;
+    const auto same = convert(scene, options);
+    CHECK(
+        openvdb::gridPtrCast<openvdb::FloatGrid>(same.grids[0])
+            ->tree()
+            .hasSameTopology(openvdb::gridPtrCast<openvdb::FloatGrid>(byDefault.grids[0])->tree()));
   }
 }

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <random>
 #include <vector>
 
@@ -92,52 +91,42 @@ double partIn(const std::vector<ConvexBody>& bodies, const Vec3d& middle, double
   return inside / std::pow(kSamples, 3);
 }
 
-struct Errors {
-  double rms = 0;  // of the voxels with a part between 0 and 1
-  double most = 0;
-  double fullMost = 0;  // of the voxels wholly inside
-  int bad = 0;
-  int wrong = 0;
-};
+enum class Way { kSmooth, kPolygons };
 
-Errors errorsOf(const std::vector<PolygonMesh>& meshes, bool smooth, bool oneObject, double size) {
+openvdb::FloatGrid::Ptr softSolid(const Scene& scene, Way way, double size) {
   ConvertOptions options;
   options.voxelSize = size;
   options.volume.fill = Fill::kSolid;
   options.volume.edge = Edge::kSoft;
   options.volume.gain = 1;
-  if (!smooth) options.until = StopRule{.levels = 0};
-  Scene scene = test::sceneOf(meshes);
+  if (way == Way::kPolygons) options.until = StopRule{.levels = 0};
+  return openvdb::gridPtrCast<openvdb::FloatGrid>(convert(scene, options).grids[0]);
+}
+
+/// Differences of soft values from the exact part of the voxel.
+struct Errors {
+  double rms = 0;   // of the voxels that the surface of the union crosses
+  double most = 0;  // of all voxels
+  double full = 0;  // of the voxels wholly inside
+};
+
+Errors errorsOf(const openvdb::FloatGrid& soft, const std::vector<PolygonMesh>& meshes, Way way) {
   std::vector<ConvexBody> bodies;
-  for (const PolygonMesh& mesh : meshes) bodies.push_back(bodyOf(mesh, smooth));
-  if (oneObject) {
-    PolygonMesh all;
-    for (const PolygonMesh& mesh : meshes) all = test::together(all, mesh, Vec3d(0, 0, 0));
-    scene = test::oneObject(all);
-  }
-  const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(convert(scene, options).grids[0]);
-  openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
+  for (const PolygonMesh& mesh : meshes) bodies.push_back(bodyOf(mesh, way == Way::kSmooth));
+  openvdb::CoordBBox box = soft.evalActiveVoxelBoundingBox();
   box.expand(1);
-  const auto accessor = grid->getConstAccessor();
+  const auto values = soft.getConstAccessor();
+  const double size = soft.voxelSize()[0];
   Errors errors;
   int count = 0;
   for (auto at = box.begin(); at; ++at) {
     const double part = partIn(bodies, size * Vec3d((*at).x(), (*at).y(), (*at).z()), size);
-    const double error = std::abs(double{accessor.getValue(*at)} - part);
-    if (part == 1) {
-      errors.fullMost = std::max(errors.fullMost, error);
-      if (error > 0.1) ++errors.bad;
-    }
-    if (part > 0 && part < 1) {
-      errors.rms += error * error;
-      ++count;
-    }
+    const double error = std::abs(double{values.getValue(*at)} - part);
     errors.most = std::max(errors.most, error);
-    if (error > 0.3) {
-      if (errors.wrong++ < 4)
-        std::printf("   wrong: %d %d %d is %g, not %g\n", (*at).x(), (*at).y(), (*at).z(),
-                    double{accessor.getValue(*at)}, part);
-    }
+    if (part == 1) errors.full = std::max(errors.full, error);
+    if (part == 0 || part == 1) continue;
+    errors.rms += error * error;
+    ++count;
   }
   errors.rms = std::sqrt(errors.rms / count);
   return errors;
@@ -163,24 +152,50 @@ std::vector<PolygonMesh> randomBodies(std::mt19937& random, int count) {
 
 }  // namespace
 
-TEST_CASE("overlapping experiment", "[softunion]") {
-  const PolygonMesh cube = test::cube();
-  const auto report = [](const char* name, const Errors& e) {
-    std::printf("%-40s rms %.4f most %.3f full %.3f bad %d wrong %d\n", name, e.rms, e.most,
-                e.fullMost, e.bad, e.wrong);
-  };
-  for (const bool smooth : {false, true})
-    for (const bool one : {false, true}) {
-      if (smooth == one) continue;
-      std::printf("smooth %d one %d\n", smooth, one);
-      report("one cube", errorsOf({cube}, smooth, one, 0.1));
-      report("two cubes",
-             errorsOf({cube, test::moved(cube, Vec3d(0.7, 0.5, 0.3))}, smooth, one, 0.1));
-      report("aligned cubes",
-             errorsOf({cube, test::moved(cube, Vec3d(1.13, 0, 0))}, smooth, one, 0.1));
-      report("glued cubes", errorsOf({cube, test::moved(cube, Vec3d(2, 0, 0))}, smooth, one, 0.13));
-      std::mt19937 random(1);
-      for (int i = 0; i < 4; ++i)
-        report("random", errorsOf(randomBodies(random, 3 + 2 * i), smooth, one, 0.07));
+TEST_CASE("a soft value is the part of the voxel in the union of bodies", "[soft][property]") {
+  // Two planes of different bodies in a voxel are exact up to the samples of their overlap. At
+  // edges of one body, a plane stands for two. A groove between bodies narrower than a voxel is
+  // full, as it is in a hard density.
+  for (const Way way : {Way::kSmooth, Way::kPolygons}) {
+    const bool smooth = way == Way::kSmooth;
+    std::mt19937 random(1);
+    for (const int count : {3, 5, 7}) {
+      const std::vector<PolygonMesh> meshes = randomBodies(random, count);
+      PolygonMesh one;
+      for (const PolygonMesh& mesh : meshes) one = test::together(one, mesh, Vec3d(0, 0, 0));
+      const Scene scene = count == 5 ? test::oneObject(one) : test::sceneOf(meshes);
+      const Errors errors = errorsOf(*softSolid(scene, way, 0.07), meshes, way);
+      CAPTURE(smooth, count, errors.rms, errors.most, errors.full);
+      CHECK(errors.rms < (smooth ? 0.01 : 0.03));
+      CHECK(errors.most < 0.45);
+      CHECK(errors.full < 0.05);
     }
+  }
+}
+
+TEST_CASE("no seam is left in a soft density where two bodies touch", "[soft][property]") {
+  const std::vector<PolygonMesh> cubes = {test::cube(), test::moved(test::cube(), Vec3d(2, 0, 0))};
+  const Errors errors =
+      errorsOf(*softSolid(test::sceneOf(cubes), Way::kPolygons, 0.13), cubes, Way::kPolygons);
+  CAPTURE(errors.rms, errors.most);
+  CHECK(errors.full < 1e-3);
+  CHECK(errors.most < 0.1);
+}
+
+TEST_CASE("a sheet through a soft body adds nothing inside, and itself outside", "[soft]") {
+  const PolygonMesh body = test::dodecahedron();
+  const PolygonMesh sheet = test::moved(test::scaled(test::regularPolygon(4), 2), Vec3d(0, 0, 0.1));
+  constexpr double kSize = 0.06;
+  ConvertOptions shell;
+  shell.voxelSize = kSize;
+  shell.volume.gain = 1;
+  const auto alone = softSolid(test::oneObject(body), Way::kSmooth, kSize);
+  const auto both = softSolid(test::sceneOf({body, sheet}), Way::kSmooth, kSize);
+  const auto sheets =
+      openvdb::gridPtrCast<openvdb::FloatGrid>(convert(test::oneObject(sheet), shell).grids[0]);
+  openvdb::CoordBBox box = both->evalActiveVoxelBoundingBox();
+  for (auto at = box.begin(); at; ++at) {
+    const float expected = std::max(alone->tree().getValue(*at), sheets->tree().getValue(*at));
+    REQUIRE(both->tree().getValue(*at) == Approx(expected).margin(1e-5));
+  }
 }

@@ -8,6 +8,7 @@ Or open this file in Blender's Text Editor and run it: File > Import then has "V
 
 import struct
 import sys
+import threading
 import time
 
 import bpy
@@ -18,9 +19,9 @@ DEPTH_OF_VOXEL = 6.0
 LIGHT = Vector((-0.5, -0.6, 0.62))  # towards the sun, in world space
 TOWARDS_CAMERA = Vector((0.35, -0.85, 0.35))  # from the front, a bit above and to the right
 # Of out.png. Blender's own 1920 x 1080 pixels of 4096 samples would take hours.
-PICTURE_SIZE = 800, 600
-PICTURE_SAMPLES = 48
-PICTURE_SECONDS = 40  # then the picture is done, with fewer samples
+PICTURE_SIZE = 640, 480
+PICTURE_SAMPLES = 32
+PICTURE_SECONDS = 45  # a slower machine takes fewer samples
 
 
 def grids_of(volume):
@@ -194,26 +195,26 @@ def menu_entry(menu, context):
 
 
 def render_picture(path):
-    """Writes a picture of the scene. Tells every few seconds how far it is."""
+    """Writes a picture of the scene. Tells every few seconds how long it takes."""
     scene = bpy.context.scene
     scene.cycles.samples = PICTURE_SAMPLES
     scene.cycles.time_limit = PICTURE_SECONDS
     scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
     scene.render.filepath = path
     start = time.monotonic()
-    last_told = start
+    done = threading.Event()
 
-    def tell(stats):
-        nonlocal last_told
-        now = time.monotonic()
-        if now - last_told >= 5:
-            last_told = now
-            print(f"vox_import: {now - start:.0f} s of at most about {PICTURE_SECONDS}", flush=True)
+    def tell():
+        while not done.wait(5):
+            print(f"rendering: {time.monotonic() - start:.0f} s of about {PICTURE_SECONDS}", flush=True)
 
-    bpy.app.handlers.render_stats.append(tell)
-    bpy.ops.render.render(write_still=True)
-    bpy.app.handlers.render_stats.remove(tell)
-    print(f"vox_import: wrote {path} after {time.monotonic() - start:.0f} s", flush=True)
+    teller = threading.Thread(target=tell)
+    teller.start()
+    try:
+        bpy.ops.render.render(write_still=True)
+    finally:
+        done.set()
+        teller.join()
 
 
 def main(arguments):

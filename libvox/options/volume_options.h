@@ -68,10 +68,15 @@ std::optional<BandWidths> bandWidthsIn(std::string_view text);
 
 inline constexpr double kDefaultBand = 3;  ///< voxels
 
+/// What looks best there: Blender's shading shows the stairs of hard densities.
+constexpr Edge defaultEdge(Target target) {
+  return target == Target::kHoudini ? Edge::kHard : Edge::kSoft;
+}
+
 /// How to make volumes. A value that is not set comes from the scene, else from the default.
 struct VolumeOptions {
   std::optional<Fill> fill;                ///< default: kSurface
-  std::optional<Edge> edge;                ///< default: kHard
+  std::optional<Edge> edge;                ///< default: defaultEdge(target)
   std::optional<double> gain;              ///< value of `density` at its voxels; see densityValue()
   std::optional<OpenMesh> openMesh;        ///< default: kSurface
   std::optional<BandWidths> band;          ///< default: kDefaultBand on both sides
@@ -85,7 +90,7 @@ struct VolumeOptions {
 /// The same with defaults applied.
 struct VolumeSettings {
   Fill fill = Fill::kSurface;
-  Edge edge = Edge::kHard;
+  Edge edge = Edge::kSoft;
   OpenMesh openMesh = OpenMesh::kSurface;
   BandWidths band = kDefaultBand;
   std::optional<double> tolerance = {};  ///< voxels; has no effect

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <unordered_set>
 
@@ -243,13 +244,27 @@ GridEstimate estimateSurface(const Measure& m, const VolumeSettings& volume) {
   return grid;
 }
 
+/// Number of voxels of normals or colours around a soft density. A layer of voxels that touch
+/// others at corners holds as many as the surface crosses.
+double voxelsAroundSoft(GridKind kind, const Measure& m, const VolumeSettings& volume) {
+  const double edge =
+      volume.fill == Fill::kSolid ? 2 * m.taxicabArea + m.sheetArea : m.taxicabArea + m.area;
+  return kind == GridKind::kColor ? edge + 2 * m.taxicabArea : edge;
+}
+
 /// Normals or colours.
-/// @param vary  from voxel to voxel
-GridEstimate estimateVectors(GridKind kind, const Measure& m, bool vary) {
+/// @param vary    from voxel to voxel
+/// @param voxels  of the grid; empty: those of the surface
+GridEstimate estimateVectors(GridKind kind, const Measure& m, bool vary,
+                             std::optional<double> voxels) {
   using Leaf = openvdb::Vec3STree::LeafNodeType;
   using Upper = openvdb::Vec3STree::RootNodeType::ChildNodeType;
   GridEstimate grid = estimateMask(m);
   grid.kind = kind;
+  if (voxels) {
+    grid.voxels = *voxels;
+    grid.leaves += std::max(0.0, *voxels - m.taxicabArea) / Leaf::SIZE;
+  }
   constexpr double kLeaf = sizeof(Leaf) + Leaf::SIZE * sizeof(openvdb::Vec3s) + kHeap;
   grid.bytes =
       grid.leaves * kLeaf + m.lowers * sizeof(Upper::ChildNodeType) + m.uppers * sizeof(Upper);
@@ -268,7 +283,11 @@ double fixedUppers(const Measure& m) {
   return scattered ? m.uppers : std::min(m.uppers, kAroundOrigin);
 }
 
-GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& volume) {
+/// @param withDensity  whether that grid is made, too
+GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& volume,
+                        bool withDensity) {
+  std::optional<double> voxels;
+  if (withDensity && volume.edge == Edge::kSoft) voxels = voxelsAroundSoft(kind, m, volume);
   switch (kind) {
     case GridKind::kMask:
       return estimateMask(m);
@@ -278,9 +297,9 @@ GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& v
     case GridKind::kSurface:
       return estimateSurface(m, volume);
     case GridKind::kNormal:
-      return estimateVectors(kind, m, m.smooth);
+      return estimateVectors(kind, m, m.smooth, voxels);
     case GridKind::kColor:
-      return estimateVectors(kind, m, m.textured);
+      return estimateVectors(kind, m, m.textured, voxels);
   }
   return {kind};
 }
@@ -292,11 +311,12 @@ Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<cons
   const Measure measure = measureOf(surfaces);
   Estimate all;
   const bool voxels = needsVoxels(kinds);
+  const bool withDensity = std::find(kinds.begin(), kinds.end(), GridKind::kDensity) != kinds.end();
   if (voxels) all.voxels = measure.activeVoxels;
   all.bytes = voxels ? estimateMask(measure).bytes : 0;
   double uppers = voxels ? sizeof(MaskUpper) : 0;
   for (const GridKind kind : kinds) {
-    const GridEstimate grid = estimateOf(kind, measure, volume);
+    const GridEstimate grid = estimateOf(kind, measure, volume, withDensity);
     if (kind != GridKind::kMask) {
       all.bytes += grid.peakBytes;
       uppers += sizeof(openvdb::Vec3STree::RootNodeType::ChildNodeType);  // the largest

@@ -42,11 +42,11 @@ VolumeSettings volumeOf(const VolumeOptions& first, const VolumeOptions& second)
     setting = firstSet({first.*option, second.*option}, setting);
   };
   choose(&VolumeOptions::fill, all.fill);
-  choose(&VolumeOptions::edge, all.edge);
   choose(&VolumeOptions::openMesh, all.openMesh);
   choose(&VolumeOptions::band, all.band);
   choose(&VolumeOptions::half, all.half);
   choose(&VolumeOptions::target, all.target);
+  all.edge = firstSet({first.edge, second.edge}, defaultEdge(all.target));
   all.tolerance = first.tolerance ? first.tolerance : second.tolerance;
   all.gain = first.gain ? first.gain : second.gain;
   all.compression = first.compression ? first.compression : second.compression;
