@@ -4,12 +4,12 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/grow.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/feet.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/volume/color.h"
 
-#include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/Prune.h>
 
 #include <algorithm>
@@ -145,7 +145,7 @@ class ObjectColors {
 /// The voxels of a mask, and one more on all sides.
 openvdb::MaskGrid::Ptr grown(const openvdb::MaskGrid& mask) {
   auto voxels = std::make_shared<openvdb::MaskTree>(mask.tree());
-  openvdb::tools::dilateActiveValues(*voxels, 1, openvdb::tools::NN_FACE_EDGE_VERTEX);
+  grow(*voxels);
   auto grid = openvdb::MaskGrid::create(voxels);
   grid->setTransform(mask.transform().copy());
   return grid;

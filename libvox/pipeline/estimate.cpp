@@ -192,11 +192,16 @@ double bytesOfValues(double leaves, const Measure& m) {
   return leaves * kLeaf + m.lowers * sizeof(FloatLower) + m.uppers * sizeof(FloatUpper);
 }
 
+/// The part of the area that has an inside.
+double closedShare(const Measure& m) {
+  return m.area > 0 ? 1 - m.sheetArea / m.area : 0;
+}
+
 GridEstimate estimateDensity(const Measure& m, const VolumeSettings& volume) {
   GridEstimate grid = estimateMask(m);
   grid.kind = GridKind::kDensity;
   const bool solid = volume.fill == Fill::kSolid;
-  if (solid) grid.voxels = m.volume + m.activeVoxels / 2;
+  if (solid) grid.voxels = m.volume + m.activeVoxels * (1 - closedShare(m) / 2);
   grid.peakBytes = bytesOfValues(grid.leaves, m) + (solid ? 2 * grid.bytes : 0);
   grid.bytes = bytesOfValues(grid.leaves, m);
   grid.fileBytes += grid.leaves * kMoreFilePerLeaf;
@@ -247,8 +252,10 @@ GridEstimate estimateSurface(const Measure& m, const VolumeSettings& volume) {
 /// Number of voxels of normals or colours around a soft density. A layer of voxels that touch
 /// others at corners holds as many as the surface crosses.
 double voxelsAroundSoft(GridKind kind, const Measure& m, const VolumeSettings& volume) {
+  const double shell = m.taxicabArea + m.area;
+  const double closed = volume.fill == Fill::kSolid ? closedShare(m) : 0;
   const double edge =
-      volume.fill == Fill::kSolid ? 2 * m.taxicabArea + m.sheetArea : m.taxicabArea + m.area;
+      closed * std::min(2 * m.taxicabArea, m.taxicabArea / 2 + m.volume) + (1 - closed) * shell;
   return kind == GridKind::kColor ? edge + 2 * m.taxicabArea : edge;
 }
 

@@ -8,6 +8,7 @@
 #include "libvox/core/progress.h"
 #include "libvox/foot/nearest_feet.h"
 #include "libvox/grid/enclosed.h"
+#include "libvox/grid/grow.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/foot_cells.h"
 #include "libvox/pipeline/grids.h"
@@ -17,7 +18,6 @@
 #include "libvox/volume/density.h"
 #include "libvox/volume/fill.h"
 
-#include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/Prune.h>
 #include <tbb/enumerable_thread_specific.h>
 
@@ -154,7 +154,7 @@ class SoftDensity {
         budget_(budget),
         progress_(progress),
         near_(mask) {
-    openvdb::tools::dilateActiveValues(near_, 1, openvdb::tools::NN_FACE_EDGE_VERTEX);
+    grow(near_);
   }
 
   openvdb::FloatTree::Ptr shells() {
@@ -423,7 +423,7 @@ openvdb::FloatGrid::Ptr softDensityGrid(const openvdb::MaskTree& mask,
 openvdb::MaskGrid::Ptr softVoxels(const openvdb::FloatGrid& density,
                                   const openvdb::MaskGrid& mask) {
   auto voxels = std::make_shared<openvdb::MaskTree>(mask.tree());
-  openvdb::tools::dilateActiveValues(*voxels, 1, openvdb::tools::NN_FACE_EDGE_VERTEX);
+  grow(*voxels);
   voxels->topologyIntersection(density.tree());
   openvdb::tools::pruneInactive(*voxels);
   auto grid = openvdb::MaskGrid::create(voxels);
