@@ -558,7 +558,7 @@ expect 2 'submesh-faces' convert good.obj -o out.vdb --submesh-faces 2147483649
 expect 4 'of the whole mesh needs about .*--localize during' convert "$scenes/cube.toml" -o out.vdb --dim 3000 --grids mask --localize off --max-memory 1G
 
 # A report.
-expect 0 'active voxels' convert "$scenes/gallery.toml" -o gallery.vdb --dim 200 --grids density,mask --edge hard --report report.json --threads 2
+expect 0 'active voxels' convert "$scenes/gallery.toml" -o gallery.vdb --dim 200 --grids density,mask --report report.json --threads 2
 "$vox" info --json gallery.vdb >info.json
 python3 - report.json info.json <<'PY' || fail "the report"
 import json, sys

@@ -192,7 +192,7 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .add("--edge", arguments.edge,
            "How the grid density ends at the surface: with one value at all its voxels (hard), or "
            "with the part of each voxel that is inside, or without --fill solid within half a "
-           "voxel of the surface (soft) (default: the scene's, or soft; hard for --target houdini)")
+           "voxel of the surface (soft) (default: the scene's, or soft if --target is blender, else hard)")
       .type("hard|soft")
       .group("Output");
   command

@@ -68,9 +68,10 @@ std::optional<BandWidths> bandWidthsIn(std::string_view text);
 
 inline constexpr double kDefaultBand = 3;  ///< voxels
 
-/// What looks best there: Blender's shading shows the stairs of hard densities.
-constexpr Edge defaultEdge(Target target) {
-  return target == Target::kHoudini ? Edge::kHard : Edge::kSoft;
+/// Blender's shading shows the stairs of hard densities. Without a target they stay hard: the values
+/// of a grid that programs compare.
+constexpr Edge defaultEdge(const std::optional<Target>& target) {
+  return target && *target != Target::kHoudini ? Edge::kSoft : Edge::kHard;
 }
 
 /// How to make volumes. A value that is not set comes from the scene, else from the default.
@@ -90,7 +91,7 @@ struct VolumeOptions {
 /// The same with defaults applied.
 struct VolumeSettings {
   Fill fill = Fill::kSurface;
-  Edge edge = Edge::kSoft;
+  Edge edge = Edge::kHard;
   OpenMesh openMesh = OpenMesh::kSurface;
   BandWidths band = kDefaultBand;
   std::optional<double> tolerance = {};  ///< voxels; has no effect

@@ -46,7 +46,7 @@ VolumeSettings volumeOf(const VolumeOptions& first, const VolumeOptions& second)
   choose(&VolumeOptions::band, all.band);
   choose(&VolumeOptions::half, all.half);
   choose(&VolumeOptions::target, all.target);
-  all.edge = firstSet({first.edge, second.edge}, defaultEdge(all.target));
+  all.edge = firstSet({first.edge, second.edge}, defaultEdge(first.target ? first.target : second.target));
   all.tolerance = first.tolerance ? first.tolerance : second.tolerance;
   all.gain = first.gain ? first.gain : second.gain;
   all.compression = first.compression ? first.compression : second.compression;

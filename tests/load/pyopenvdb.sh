@@ -5,8 +5,8 @@ python=/usr/bin/python3
 $python -c 'import pyopenvdb' 2>/dev/null || { echo "skipped: python3-openvdb is not installed"; exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-"$1" convert "$2/toy_jack.toml" -o "$folder/jack.vdb" --dim 100 --edge hard
-"$1" convert "$2/toy_jack.toml" -o "$folder/both.vdb" --dim 100 --grids density,mask --edge hard
+"$1" convert "$2/toy_jack.toml" -o "$folder/jack.vdb" --dim 100
+"$1" convert "$2/toy_jack.toml" -o "$folder/both.vdb" --dim 100 --grids density,mask
 
 $python - "$folder/jack.vdb" "$folder/both.vdb" <<'PY'
 import sys
