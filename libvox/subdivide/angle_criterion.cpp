@@ -4,7 +4,6 @@
 
 #include "libvox/subdivide/diameter_criterion.h"
 #include "libvox/subdivide/least_depth.h"
-#include "libvox/subdivide/patch_shape.h"
 #include "libvox/subdivide/sizes.h"
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 #include "libvox/subdivide/stop.h"
 #include "libvox/subdivide/thin_patch.h"
 #include "libvox/subdivide/vertex_patch.h"
-#include "libvox/subdivide/vertex_split.h"
 
 #include <algorithm>
 #include <utility>
@@ -70,8 +69,9 @@ class Decisions {
   /// A thin patch is emitted at once, in closed form; no vertices of it come from later levels.
   void decideRegular(Index v, const Patch& patch) {
     levelsToGo_[v] = patchDepth(patch);
-    if (!thinPatch(patch, levelsToGo_[v])) return;
-    emitRegular(patch, number_, sink_);
+    const PatchPart part(patch, levelsToGo_[v]);
+    if (!part.thin) return;
+    emitRegular(part, number_, sink_);
     levelsToGo_[v] = kEmitted;
   }
 

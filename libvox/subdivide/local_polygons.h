@@ -42,7 +42,7 @@ class LocalPolygons {
             const DepthRule* rule, PolygonSink& sink);
 
  private:
-  using Corner = LocalVertices::Corner;
+  using Corner = SubmeshCorner;
 
   void emitFace(const Corner& first, PolygonPieces& pieces, PolygonSink& sink);
   void emitArray(const VertexArray& array, bool whole, PolygonPieces& pieces, PolygonSink& sink);
