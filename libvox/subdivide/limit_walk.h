@@ -34,7 +34,7 @@ class LimitWalk {
   const SubdivisionLevel& base() const { return vertices_.images().base(); }
 
   /// Gives the sink the pieces that the corners of some faces own.
-  /// @param faces  of the base; the span must stay valid until the next call
+  /// @param faces  of the base
   /// @throws LimitError  coordinates are out of range
   void emit(std::span<const Index> faces, LimitSink& sink);
 

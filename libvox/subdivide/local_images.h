@@ -60,11 +60,10 @@ class LocalImages {
   explicit LocalImages(const SubdivisionLevel& base);
 
   /// Replaces the submesh. Cost linear in the corners of the submesh and its one-ring.
-  /// @param faces  of the base; the span must stay valid until the next call
+  /// @param faces  of the base
   void set(std::span<const Index> faces);
 
   const SubdivisionLevel& base() const { return base_; }
-  std::span<const Index> faces() const { return faces_; }
   bool extends() const { return base_.boundary == BoundaryStage::kExtend; }
 
   /// Number of corners of the submesh. Their slots are 0 .. ownSlots() - 1, face by face.
@@ -114,7 +113,7 @@ class LocalImages {
   void mirrorEdge(Index slot, Index next, Index corner);
 
   const SubdivisionLevel& base_;
-  std::span<const Index> faces_;
+  std::vector<Index> faces_;
   Index ownSlots_ = 0;
   std::vector<Index> firstSlot_;  // per face of the base, or kNone
   std::vector<Index> known_;      // faces with slots

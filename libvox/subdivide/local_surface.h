@@ -25,7 +25,7 @@ class LocalSurface {
   explicit LocalSurface(const SubdivisionLevel& base) : vertices_(base) {}
 
   /// Gives the sink all vertices that the corners of some faces own, each at its own level.
-  /// @param faces  of the base; the span must stay valid until the next call
+  /// @param faces  of the base
   /// @throws LimitError  coordinates are out of range
   void emit(std::span<const Index> faces, SurfaceSink& sink);
 

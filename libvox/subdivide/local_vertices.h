@@ -20,7 +20,7 @@ class LocalVertices {
   explicit LocalVertices(const SubdivisionLevel& base) : images_(base) {}
 
   /// Replaces the submesh. Cost as LocalImages::set.
-  /// @param faces  of the base; the span must stay valid until the next call
+  /// @param faces  of the base
   void set(std::span<const Index> faces);
 
   const LocalImages& images() const { return images_; }
