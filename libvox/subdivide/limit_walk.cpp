@@ -150,7 +150,7 @@ void LimitWalk::emitVertex(const SubmeshCorner& at, LimitSink& sink) {
   const bool quadVFace = vertex.vFace == nullptr || vertex.vFace->size() == 4;
   if (!quadF) p[2][2] = fourthCorner(vertex.face->shape(1).centroid, p[1][1], p[2][1], p[1][2]);
   if (!quadVFace)
-    p[0][0] = fourthCorner(vertex.vFace->shape(1).centroid, p[1][1], p[0][2], p[1][0]);
+    p[0][0] = fourthCorner(vertex.vFace->shape(1).centroid, p[1][1], p[0][1], p[1][0]);
   const auto near = [&](bool inF, FaceLevels& face, std::size_t place) {
     return errorAsQuad(patch, inF, face.corners(2)[place], face.size()) <= tolerance_;
   };

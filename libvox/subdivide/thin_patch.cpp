@@ -3,8 +3,8 @@
 #include "libvox/subdivide/thin_patch.h"
 
 #include "libvox/mesh/patch_parts.h"
+#include "libvox/subdivide/patch_steps.h"
 #include "libvox/subdivide/patch_strips.h"
-#include "libvox/subdivide/sizes.h"
 
 #include <Eigen/Geometry>
 
