@@ -66,8 +66,6 @@ class LocalImages {
   const SubdivisionLevel& base() const { return base_; }
   bool extends() const { return base_.boundary == BoundaryStage::kExtend; }
 
-  /// Number of corners of the submesh. Their slots are 0 .. ownSlots() - 1, face by face.
-  Index ownSlots() const { return ownSlots_; }
   const Vec3d& image(Index slot) const { return images_[slot]; }
   std::span<const Vec3d> imagesOfFace(Index firstSlot, Index size) const {
     return std::span(images_).subspan(firstSlot, size);
@@ -114,7 +112,7 @@ class LocalImages {
 
   const SubdivisionLevel& base_;
   std::vector<Index> faces_;
-  Index ownSlots_ = 0;
+  Index ownSlots_ = 0;  // corners of the submesh; their slots are the first ones
   std::vector<Index> firstSlot_;  // per face of the base, or kNone
   std::vector<Index> known_;      // faces with slots
   std::vector<Index> vFaceAt_;    // per vertex of the base, or kNone
