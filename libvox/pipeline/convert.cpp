@@ -23,7 +23,7 @@
 #include "libvox/volume/density.h"
 
 #include <algorithm>
-#include <array>
+#include <numeric>
 #include <span>
 
 namespace vox {
@@ -151,13 +151,14 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
     mask = markObjects(scene, request, prepared, progress, report);
   }
   openvdb::MaskGrid::Ptr laterMask;
-  const double workOfSurfaceGrid =
-      workOfGrids(prepared.areas, std::array{GridKind::kSurface}, request.volume.edge);
+  const auto workOf = [&,
+                       area = std::accumulate(prepared.areas.begin(), prepared.areas.end(), 0.0)](
+                          GridKind kind) { return workOfGrid(kind, request.volume.edge, area); };
   const MarkVoxels markVoxels = [&]() -> const openvdb::MaskTree& {
     if (marks) return mask->tree();
     ConvertReport unused = report;
     laterMask = markObjects(scene, request, prepared, progress, unused);
-    progress.begin("grids", workOfSurfaceGrid / 2);  // go on where makeGrid was
+    progress.begin("grids", workOf(GridKind::kSurface) / 2);  // go on where makeGrid was
     return laterMask->tree();
   };
 
@@ -168,7 +169,7 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, request, report);
   for (const GridKind kind : request.grids) {
-    const double work = workOfGrids(prepared.areas, std::array{kind}, volume.edge);
+    const double work = workOf(kind);
     progress.begin("grids", kind == GridKind::kSurface && !marks ? work / 2 : work);
     result.grids.push_back(finished(makeGrid(kind, {mask, prepared.surfaces, markVoxels}, volume,
                                              prepared.budget, progress, report.warnings),

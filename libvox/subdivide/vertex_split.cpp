@@ -13,6 +13,14 @@ std::uint8_t quadrants(bool q0, bool q1, bool q2, bool q3) {
                                    (q3 ? 8U : 0U));
 }
 
+/// The points of a face at a corner, at the next one, opposite it in a quad (else 0), and at the
+/// previous one.
+std::array<Vec3d, 4> fromCorner(std::span<const Vec3d> points, std::size_t place) {
+  const std::size_t n = points.size();
+  return {points[place], points[place + 1 == n ? 0 : place + 1],
+          n == 4 ? points[place ^ 2U] : Vec3d::Zero(), points[(place == 0 ? n : place) - 1]};
+}
+
 }  // namespace
 
 VertexSplit::VertexSplit(const Patch& around)
@@ -25,19 +33,12 @@ VertexSplit::VertexSplit(const Patch& around)
 }
 
 void VertexSplit::setF(std::span<const Vec3d> images, std::size_t place) {
-  const std::size_t n = images.size();
-  f0 = images[place];
-  fNext = images[place + 1 == n ? 0 : place + 1];
-  fPrevious = images[(place == 0 ? n : place) - 1];
-  if (n == 4) fOpposite = images[place ^ 2U];
+  setF(fromCorner(images, place));
 }
 
 void VertexSplit::setVFace(std::span<const Vec3d> images, std::size_t place) {
-  const std::size_t n = images.size();
-  vFace0 = images[place];
-  vFaceLeft = images[place + 1 == n ? 0 : place + 1];
-  vFaceRight = images[(place == 0 ? n : place) - 1];
-  if (n == 4) vFaceOpposite = images[place ^ 2U];
+  const auto [at, left, opposite, right] = fromCorner(images, place);
+  setVFace({at, right, opposite, left});
 }
 
 Patch VertexSplit::childInR() const {
