@@ -112,7 +112,7 @@ class LocalImages {
 
   const SubdivisionLevel& base_;
   std::vector<Index> faces_;
-  Index ownSlots_ = 0;  // corners of the submesh; their slots are the first ones
+  Index ownSlots_ = 0;            // corners of the submesh; their slots are the first ones
   std::vector<Index> firstSlot_;  // per face of the base, or kNone
   std::vector<Index> known_;      // faces with slots
   std::vector<Index> vFaceAt_;    // per vertex of the base, or kNone
