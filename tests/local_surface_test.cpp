@@ -8,7 +8,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <map>
+#include <numeric>
+#include <vector>
 
 using namespace vox;
 
@@ -133,6 +136,19 @@ TEST_CASE("the vertices of long thin patches are few, and the same for every par
   // side as along the long one.
   const int deepest = whole.vertices.rbegin()->first;
   CHECK(count < (std::size_t{1024} << (2 * (deepest - 1))) / 8);
+}
+
+TEST_CASE("a walker does not read the faces of the submesh before", "[subdivide][localize]") {
+  const SubdivisionLevel base = scaled(test::torusGrid(4, 8), 10.0, BoundaryRule::kExtend);
+  std::vector<Index> all(base.mesh.faceCount());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Index> overwritten = all;
+  LocalSurface surface(base);
+  Collector first, again;
+  surface.emit(overwritten, first);
+  std::fill(overwritten.begin(), overwritten.end(), kNone);
+  surface.emit(all, again);
+  requireSame(again, first);
 }
 
 TEST_CASE("a long bar at an angle to the axes is the same for every partition",

@@ -9,10 +9,9 @@
 #include "libvox/pipeline/surface.h"
 #include "libvox/prepare/repair.h"
 #include "libvox/subdivide/doo_sabin.h"
+#include "libvox/subdivide/patch_steps.h"
 #include "libvox/subdivide/patch_strips.h"
-#include "libvox/subdivide/sizes.h"
 #include "libvox/subdivide/stop.h"
-#include "libvox/subdivide/vertex_split.h"
 #include "tests/repaired_level.h"
 #include "tests/shapes.h"
 

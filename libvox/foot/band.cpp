@@ -4,9 +4,9 @@
 
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
-#include "libvox/foot/leaf_flood.h"
 #include "libvox/foot/scan_cell.h"
 #include "libvox/grid/enclosed.h"
+#include "libvox/grid/leaf_words.h"
 #include "libvox/grid/openvdb.h"
 
 #include <openvdb/tools/SignedFloodFill.h>
@@ -38,7 +38,7 @@ struct Page {
 };
 
 struct LeafSigns {
-  LeafBits active, inside;
+  LeafWords active, inside;
 
   bool anyActive() const {
     std::uint64_t any = 0;
@@ -49,31 +49,26 @@ struct LeafSigns {
 
 /// The negative active voxels, and the inactive ones inside: those that negative ones reach. Signs
 /// of active voxels next to inactive ones are right.
-LeafBits withInactive(const LeafBits& active, const LeafBits& negative) {
+LeafWords withInactive(const LeafWords& active, const LeafWords& negative) {
   std::uint64_t some = 0, others = 0;
   for (std::size_t x = 0; x < 8; ++x) {
     some |= negative[x];
     others |= active[x] & ~negative[x];
   }
-  LeafBits inside = {};
+  LeafWords inside = {};
   if (some == 0) return inside;
   inside.fill(~std::uint64_t{0});
   if (others == 0) return inside;
-  LeafBits inactive;
-  for (std::size_t x = 0; x < 8; ++x) inactive[x] = ~active[x];
-  inside = flooded(neighboursOf(negative), inactive);
+  inside = flooded(neighboursOf(negative), complementOf(active));
   for (std::size_t x = 0; x < 8; ++x) inside[x] |= negative[x];
   return inside;
 }
 
 /// The active voxels of a leaf of a mask.
-LeafBits bitsOf(const openvdb::MaskTree& mask, const openvdb::Coord& origin) {
-  LeafBits bits;
-  if (const auto* leaf = mask.probeConstLeaf(origin))
-    for (openvdb::Index x = 0; x < 8; ++x)
-      bits[x] = leaf->getValueMask().getWord<openvdb::Index64>(x);
-  else
-    bits.fill(mask.isValueOn(origin) ? ~std::uint64_t{0} : 0);
+LeafWords bitsOf(const openvdb::MaskTree& mask, const openvdb::Coord& origin) {
+  if (const auto* leaf = mask.probeConstLeaf(origin)) return activeWords(*leaf);
+  LeafWords bits;
+  bits.fill(mask.isValueOn(origin) ? ~std::uint64_t{0} : 0);
   return bits;
 }
 
@@ -224,7 +219,7 @@ class BandMaker {
 
   LeafSigns signsByFeet(const std::uint32_t* keys, Work& work) const {
     LeafSigns signs = {};
-    LeafBits negative = {};
+    LeafWords negative = {};
     for (unsigned x = 0; x < 8; ++x)
       for (unsigned bit = 0; bit < 64; ++bit) {
         const std::uint32_t key = keys[x << 6 | bit];
@@ -242,7 +237,7 @@ class BandMaker {
   LeafSigns signsByVoxels(const std::uint32_t* keys, const openvdb::Coord& origin) const {
     constexpr float kNear = 1;  // a surface that crosses the voxel is nearer than this
     const std::uint32_t nearest = keyOf(kNear);
-    const LeafBits surface = bitsOf(*inside_.surface, origin);
+    const LeafWords surface = bitsOf(*inside_.surface, origin);
     LeafSigns signs = {};
     signs.inside = bitsOf(*inside_.solid, origin);
     const openvdb::tree::ValueAccessor<const openvdb::MaskTree> solid(*inside_.solid);
@@ -261,8 +256,8 @@ class BandMaker {
   }
 
   /// Number of neighbouring voxels in the leaf that no surface separates as their distances say.
-  static std::uint64_t jumpsOf(const std::uint32_t* keys, const LeafBits& active,
-                               const LeafBits& negative) {
+  static std::uint64_t jumpsOf(const std::uint32_t* keys, const LeafWords& active,
+                               const LeafWords& negative) {
     constexpr float kMost = 1.02F;
     constexpr std::uint64_t kNotLastZ = 0x7F7F7F7F7F7F7F7F;
     std::uint64_t jumps = 0;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "libvox/foot/foot_bins.h"
-#include "libvox/foot/leaf_flood.h"
+#include "libvox/grid/leaf_words.h"
 #include "libvox/grid/openvdb_fwd.h"
 
 #include <array>
@@ -21,7 +21,7 @@ struct FootPlace {
 
 /// The nearest feet of some voxels of a leaf.
 struct LeafFeet {
-  LeafBits found;                    ///< voxels with a foot
+  LeafWords found;                   ///< voxels with a foot
   std::array<float, 512> distance;   ///< voxels; negative on the inner side
   std::array<FootPlace, 512> place;  ///< in OpenVDB's order of voxels
 

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <array>
+#include "libvox/grid/leaf_words.h"
+
 #include <cstdint>
 
 namespace vox {
-
-/// The voxels of a leaf, one bit each, in OpenVDB's order: word x, bit 8 y + z.
-using LeafWords = std::array<std::uint64_t, 8>;
 
 /// Switches on further voxels of a leaf.
 /// @param bits  the 8 words of the leaf

@@ -26,6 +26,13 @@ Box usedBox(const PolygonMesh& mesh) {
   return box;
 }
 
+Box boxOf(const PolygonMesh& mesh, std::span<const Index> faces) {
+  Box box;
+  for (const Index f : faces)
+    for (const Index v : mesh.face(f)) box.add(mesh.points[v]);
+  return box;
+}
+
 Turn turnFor(std::optional<UpAxis> up, Target target) {
   const UpAxis targetUp = target == Target::kHoudini ? UpAxis::kY : UpAxis::kZ;
   if (up.value_or(targetUp) == targetUp) return Turn::kNoTurn;

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace vox {
@@ -16,6 +17,10 @@ struct Box {
   Vec3d high = Vec3d::Constant(-std::numeric_limits<double>::infinity());
 
   bool empty() const { return !(low.array() <= high.array()).all(); }
+  /// Whether two boxes have a point in common.
+  bool meets(const Box& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
   double longestSide() const { return empty() ? 0 : (high - low).maxCoeff(); }
   void add(const Vec3d& p) {
     low = low.cwiseMin(p);
@@ -29,6 +34,8 @@ struct Box {
 
 /// Box of all points that belong to a face.
 Box usedBox(const PolygonMesh& mesh);
+/// Box of the points of some faces.
+Box boxOf(const PolygonMesh& mesh, std::span<const Index> faces);
 
 /// Quarter turn about the x axis, from world space to the axes of the grid.
 enum class Turn {

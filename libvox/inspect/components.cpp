@@ -8,6 +8,7 @@
 #include "libvox/core/error.h"
 #include "libvox/core/forest.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/leaf_words.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/inspect/leaf_pieces.h"
 
@@ -46,12 +47,8 @@ struct Entry {
 };
 
 LeafWords wordsOf(const Leaf& leaf, bool active) {
-  LeafWords words;
-  for (openvdb::Index x = 0; x < words.size(); ++x) {
-    const auto word = leaf.getValueMask().getWord<openvdb::Index64>(x);
-    words[x] = active ? word : ~word;
-  }
-  return words;
+  const LeafWords words = activeWords(leaf);
+  return active ? words : complementOf(words);
 }
 
 /// Leaves with active voxels, and tiles as runs, column by column.

@@ -92,9 +92,8 @@ std::uint64_t countOf(const LeafWords& words) {
 }
 
 Coord firstOf(const LeafWords& words) {
-  const auto word = std::find_if(words.begin(), words.end(), [](auto bits) { return bits != 0; });
-  const int bit = std::countr_zero(*word);
-  return {static_cast<int>(word - words.begin()), bit >> 3, bit & 7};
+  const int voxel = lowestVoxel(words);
+  return {voxel >> 6, voxel >> 3 & 7, voxel & 7};
 }
 
 }  // namespace vox

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/grid/merge_leaf.h"
+#include "libvox/grid/leaf_words.h"
 #include "libvox/grid/openvdb_fwd.h"
 
 #include <cstdint>

@@ -21,6 +21,16 @@ Patch quarterTurn(const Patch& patch) {
   return turned;
 }
 
+Patch halfTurn(const Patch& patch) {
+  Patch turned;
+  for (std::size_t u = 0; u < 3; ++u)
+    for (std::size_t v = 0; v < 3; ++v) turned.points[u][v] = patch.points[2 - u][2 - v];
+  turned.quadrants = 0;
+  for (unsigned q = 0; q < 4; ++q)
+    if ((patch.quadrants >> q & 1U) != 0) turned.quadrants |= static_cast<std::uint8_t>(8U >> q);
+  return turned;
+}
+
 std::array<Patch, 2> halvesAlongU(const Patch& patch) {
   std::array<Patch, 2> halves;
   for (std::size_t v = 0; v < 3; ++v) {

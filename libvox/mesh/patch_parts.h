@@ -6,11 +6,15 @@
 
 namespace vox {
 
-// Other patches with the descendants of a given patch. Precondition of all: its four faces exist.
+// Other patches with the descendants of a given patch. Precondition of all but halfTurn: its four
+// faces exist.
 
 /// The patch turned by a quarter: the new v runs along the old u, the new u against the old v. The
 /// vertices and the outside stay the same; columns become rows.
 Patch quarterTurn(const Patch& patch);
+
+/// The patch turned by half a turn: u and v run the other way.
+Patch halfTurn(const Patch& patch);
 
 /// One refinement step along u only: the two patches with the first and the second half of the
 /// rows.

@@ -24,7 +24,6 @@
 #include "libvox/volume/density.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <span>
 
@@ -162,13 +161,14 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
     mask = markObjects(scene, request, prepared, progress, report);
   }
   openvdb::MaskGrid::Ptr laterMask;
-  const double workOfSurfaceGrid =
-      workOfGrids(prepared.areas, std::array{GridKind::kSurface}, request.volume.edge);
+  const auto workOf = [&,
+                       area = std::accumulate(prepared.areas.begin(), prepared.areas.end(), 0.0)](
+                          GridKind kind) { return workOfGrid(kind, request.volume.edge, area); };
   const MarkVoxels markVoxels = [&]() -> const openvdb::MaskTree& {
     if (marks) return mask->tree();
     ConvertReport unused = report;
     laterMask = markObjects(scene, request, prepared, progress, unused);
-    progress.begin("grids", workOfSurfaceGrid / 2);  // go on where makeGrid was
+    progress.begin("grids", workOf(GridKind::kSurface) / 2);  // go on where makeGrid was
     return laterMask->tree();
   };
 
@@ -182,7 +182,7 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   result.grids.resize(request.grids.size());
   for (const std::size_t i : orderOf(request.grids)) {
     const GridKind kind = request.grids[i];
-    const double work = workOfGrids(prepared.areas, std::array{kind}, volume.edge);
+    const double work = workOf(kind);
     progress.begin("grids", kind == GridKind::kSurface && !marks ? work / 2 : work);
     const openvdb::GridBase::Ptr grid =
         makeGrid(kind, {mask, prepared.surfaces, markVoxels, soft}, volume, prepared.budget,

@@ -7,6 +7,7 @@
 #include "libvox/foot/band.h"
 #include "libvox/foot/wide_band.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/grid/transform.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/exposed_pieces.h"
 #include "libvox/pipeline/foot_cells.h"
@@ -35,22 +36,13 @@ struct Part {
   bool isClosed() const { return component->side != MeshComponent::Side::kNoInside; }
 };
 
-Box boxOf(const PolygonMesh& mesh, const MeshComponent& component) {
-  Box box;
-  for (const Index f : component.faces)
-    for (const Index v : mesh.face(f)) box.add(mesh.points[v]);
-  return box;
-}
-
 /// Whether surfaces of components could touch, or lie in each other.
 bool mayMeet(const std::vector<Part>& parts) {
   constexpr std::size_t kMostCompared = 1000;
   if (parts.size() > kMostCompared) return true;
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if ((parts[i].box.low.array() <= parts[j].box.high.array()).all() &&
-          (parts[j].box.low.array() <= parts[i].box.high.array()).all())
-        return true;
+      if (parts[i].box.meets(parts[j].box)) return true;
   return false;
 }
 
@@ -118,7 +110,7 @@ class LevelSetMaker {
       components_.push_back(componentsOf(surface.base));
     for (std::size_t s = 0; s < surfaces.size(); ++s)
       for (const MeshComponent& component : components_[s]) {
-        const Part part{s, &component, boxOf(surfaces[s].base.mesh, component)};
+        const Part part{s, &component, boxOf(surfaces[s].base.mesh, component.faces)};
         (part.isClosed() ? closed_ : open_).push_back(part);
       }
   }

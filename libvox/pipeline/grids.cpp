@@ -11,12 +11,10 @@
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/normals.h"
 #include "libvox/pipeline/soft_density.h"
-#include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
 #include "libvox/volume/fill.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace vox {
 namespace {
@@ -70,19 +68,6 @@ std::uint64_t bytesOfFloats(const openvdb::MaskTree& mask) {
 
 std::uint64_t bytesOfVectors(const openvdb::MaskTree& mask) {
   return bytesOfGrid<openvdb::Vec3STree>(mask);
-}
-
-double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds, Edge edge) {
-  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-  double work = 0;
-  for (const GridKind kind : kinds) {
-    if (kind == GridKind::kDensity)
-      work += edge == Edge::kSoft ? workOfSoftDensity(area) : workOfDensity(area);
-    if (kind == GridKind::kSurface) work += workOfLevelSet(area);
-    if (kind == GridKind::kNormal) work += workOfNormals(area);
-    if (kind == GridKind::kColor) work += workOfColor(area);
-  }
-  return work;
 }
 
 bool needsVoxels(std::span<const GridKind> kinds) {

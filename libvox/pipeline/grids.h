@@ -43,10 +43,6 @@ std::shared_ptr<openvdb::GridBase> makeGrid(GridKind kind, const GridSources& so
                                             const VolumeSettings& volume, MemoryBudget& budget,
                                             Progress& progress, std::vector<std::string>& warnings);
 
-/// Work of making grids (work.h), by the area of each object in square voxels.
-/// @param edge  of the grid density
-double workOfGrids(std::span<const double> areas, std::span<const GridKind> kinds, Edge edge);
-
 /// Bytes of a file of these grids, as once measured.
 std::uint64_t expectedBytes(std::span<const std::shared_ptr<openvdb::GridBase>> grids);
 

@@ -10,6 +10,7 @@
 #include "libvox/grid/enclosed.h"
 #include "libvox/grid/grow.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/grid/transform.h"
 #include "libvox/pipeline/foot_cells.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
@@ -99,9 +100,7 @@ class BodyGroups {
   void add(std::size_t surface, const PolygonMesh& mesh, const MeshComponent& body) {
     constexpr std::size_t kMostGroups = 8;
     constexpr std::size_t kMostBoxes = 1000;  // of a group
-    Box box;
-    for (const Index f : body.faces)
-      for (const Index v : mesh.face(f)) box.add(mesh.points[v]);
+    const Box box = boxOf(mesh, body.faces);
     std::size_t g = 0;
     while (g < groups_.size() && g + 1 < kMostGroups && meets(boxes_[g], box)) ++g;
     if (g == groups_.size()) {
@@ -119,10 +118,8 @@ class BodyGroups {
 
  private:
   static bool meets(const std::vector<Box>& boxes, const Box& box) {
-    return std::any_of(boxes.begin(), boxes.end(), [&](const Box& other) {
-      return (box.low.array() <= other.high.array()).all() &&
-             (other.low.array() <= box.high.array()).all();
-    });
+    return std::any_of(boxes.begin(), boxes.end(),
+                       [&](const Box& other) { return other.meets(box); });
   }
 
   std::size_t surfaces_;

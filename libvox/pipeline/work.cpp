@@ -15,40 +15,37 @@ double workOfSurface(double area, std::uint64_t corners) {
   return kPerSquareVoxel * area + kPerCorner * static_cast<double>(corners);
 }
 
-double workOfDensity(double area) {
-  return 13 * area;
+double workOfGrid(GridKind kind, Edge edge, double area) {
+  switch (kind) {
+    case GridKind::kDensity:
+      return (edge == Edge::kSoft ? 200 : 13) * area;
+    case GridKind::kMask:
+      return 0;
+    case GridKind::kSurface:
+      return 250 * area;
+    case GridKind::kNormal:
+      return 100 * area;
+    case GridKind::kColor:
+      return 250 * area;
+  }
+  return 0;
 }
 
-double workOfSoftDensity(double area) {
-  return 200 * area;
-}
-
-double workOfLevelSet(double area) {
-  return 250 * area;
-}
-
-double workOfNormals(double area) {
-  return 100 * area;
-}
-
-double workOfColor(double area) {
-  return 250 * area;
-}
-
-double workOfWritingMask(double area) {
-  return 8 * area;
-}
-
-double workOfWritingDensity(double area) {
-  return 32 * area;
-}
-
-double workOfWritingNormals(double area) {
-  return 150 * area;
-}
-
-double workOfWritingColor(double area) {
-  return 100 * area;
+double workOfWriting(GridKind kind, double area) {
+  constexpr double kVoxelsOfBand = 4;  // of a level set, for each voxel of the surface
+  switch (kind) {
+    case GridKind::kDensity:
+      return 32 * area;
+    case GridKind::kMask:
+      return 8 * area;
+    case GridKind::kSurface:
+      return kVoxelsOfBand * 32 * area;
+    case GridKind::kNormal:
+      return 150 * area;
+    case GridKind::kColor:
+      return 100 * area;
+  }
+  return 0;
 }
 
 }  // namespace vox

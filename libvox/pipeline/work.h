@@ -1,6 +1,8 @@
 #pragma once
 
 #include "libvox/mesh/polygon_mesh.h"
+#include "libvox/options/grid_kind.h"
+#include "libvox/options/volume_options.h"
 
 #include <cstdint>
 
@@ -15,16 +17,9 @@ double workOfPreparing(const PolygonMesh& mesh, bool interpolates);
 inline constexpr double kPartBeforeInterpolation = 0.6;
 /// Makes the voxels of a surface, or of a part of it.
 double workOfSurface(double area, std::uint64_t corners);
-/// Makes a grid from the voxels.
-double workOfDensity(double area);
-double workOfSoftDensity(double area);
-double workOfLevelSet(double area);
-double workOfNormals(double area);
-double workOfColor(double area);
+/// Makes a grid from the voxels, or from the surfaces.
+double workOfGrid(GridKind kind, Edge edge, double area);
 /// Writes a grid.
-double workOfWritingMask(double area);
-double workOfWritingDensity(double area);
-double workOfWritingNormals(double area);
-double workOfWritingColor(double area);
+double workOfWriting(GridKind kind, double area);
 
 }  // namespace vox

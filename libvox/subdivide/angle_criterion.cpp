@@ -4,8 +4,7 @@
 
 #include "libvox/subdivide/diameter_criterion.h"
 #include "libvox/subdivide/least_depth.h"
-#include "libvox/subdivide/patch_shape.h"
-#include "libvox/subdivide/sizes.h"
+#include "libvox/subdivide/patch_steps.h"
 
 #include <algorithm>
 #include <cstdint>

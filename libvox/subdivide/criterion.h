@@ -14,7 +14,24 @@ struct VertexFaces {
   Vec3d at, next, previous, right, left;
   FaceShape f, vFace;
   std::array<Vec3d, 4> r, l;  ///< corners of R: at, next, ...; corners of L: at, previous, ...
-  bool hasR = true, hasL = true, hasVFace = true;
+  bool hasR, hasL, hasVFace;
+
+  /// Sets all but the shapes.
+  /// @param around  the patch around the vertex; its corners in F and in the V-face are not used
+  explicit VertexFaces(const Patch& around) : VertexFaces(around.points, around.quadrants) {}
+
+ private:
+  VertexFaces(const std::array<std::array<Vec3d, 3>, 3>& p, unsigned quadrants)
+      : at(p[1][1]),
+        next(p[2][1]),
+        previous(p[1][2]),
+        right(p[1][0]),
+        left(p[0][1]),
+        r{at, next, p[2][0], right},
+        l{at, previous, p[0][2], left},
+        hasR((quadrants & 4U) != 0),
+        hasL((quadrants & 2U) != 0),
+        hasVFace((quadrants & 1U) != 0) {}
 };
 
 /// A limit for polygons, one kind of stop rule. Depths are numbers of levels below a vertex.

@@ -16,7 +16,7 @@ namespace {
 
 VertexDepth depthFor(const Criterion& criterion, const LevelOneVertex& vertex,
                      const VertexFaces* faces, const BoundaryCurves& curves, int most) {
-  VertexDepth depth = vertex.regular ? criterion.regularDepth(vertex.patch, most)
+  VertexDepth depth = vertex.regular ? criterion.regularDepth(vertex.around, most)
                                      : squareOf(irregularDepth(criterion, vertex, *faces, most));
   const auto deepen = [&](std::uint8_t& along, const std::optional<CurvePoints>& curve) {
     if (curve)

@@ -27,23 +27,31 @@ double realDiameter(std::span<const Vec3d> corners, std::size_t real) {
   return (high - low).maxCoeff();
 }
 
+Vec3d unitOrZero(const Vec3d& vector) {
+  const Vec3d unit = vector.stableNormalized();
+  return unit.squaredNorm() > 0.5 ? unit : Vec3d::Zero();
+}
+
 }  // namespace
 
 FaceShape shapeOf(std::span<const Vec3d> corners, std::size_t real) {
   FaceShape shape;
   shape.diameter = real < corners.size() ? realDiameter(corners, real) : diameter(corners);
   Vec3d twiceArea = Vec3d::Zero();
-  Vec3d centroid = corners[0];
+  shape.centroid = corners[0];
   for (std::size_t i = 1; i < corners.size(); ++i) {
-    centroid += corners[i];
+    shape.centroid += corners[i];
     twiceArea += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
   }
-  centroid /= static_cast<double>(corners.size());
-  shape.normal = twiceArea.stableNormalized();
-  if (!(shape.normal.squaredNorm() > 0.5)) shape.normal.setZero();
+  shape.centroid /= static_cast<double>(corners.size());
+  shape.normal = unitOrZero(twiceArea);
   for (const Vec3d& corner : corners)
-    shape.height = std::max(shape.height, std::abs(shape.normal.dot(corner - centroid)));
+    shape.height = std::max(shape.height, std::abs(shape.normal.dot(corner - shape.centroid)));
   return shape;
+}
+
+Vec3d normalOf(const Vec3d& alongU, const Vec3d& alongV) {
+  return unitOrZero(alongU.cross(alongV));
 }
 
 double angleBetween(const Vec3d& a, const Vec3d& b) {

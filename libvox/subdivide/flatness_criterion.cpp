@@ -4,7 +4,6 @@
 
 #include "libvox/mesh/patch_parts.h"
 #include "libvox/subdivide/least_depth.h"
-#include "libvox/subdivide/patch_shape.h"
 
 #include <Eigen/Geometry>
 

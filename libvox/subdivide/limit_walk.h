@@ -1,13 +1,10 @@
 #pragma once
 
 #include "libvox/mesh/limit_piece.h"
-#include "libvox/subdivide/extraordinary.h"
-#include "libvox/subdivide/local_images.h"
-#include "libvox/subdivide/v_face_level.h"
-#include "libvox/subdivide/vertex_split.h"
+#include "libvox/subdivide/local_vertices.h"
 
+#include <cstdint>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -32,47 +29,21 @@ class LimitWalk {
   ///   vertex
   /// @param tolerance  voxels
   explicit LimitWalk(const SubdivisionLevel& base, double tolerance)
-      : images_(base), tolerance_(tolerance) {}
+      : vertices_(base), tolerance_(tolerance) {}
 
-  const SubdivisionLevel& base() const { return images_.base(); }
+  const SubdivisionLevel& base() const { return vertices_.images().base(); }
 
   /// Gives the sink the pieces that the corners of some faces own.
-  /// @param faces  of the base; the span must stay valid until the next call
+  /// @param faces  of the base
   /// @throws LimitError  coordinates are out of range
   void emit(std::span<const Index> faces, LimitSink& sink);
 
  private:
-  struct Corner : SlotCorner {
-    Index number;  // in the base mesh
-    CornerSquare square() const { return {number}; }
-  };
+  void emitVertex(const SubmeshCorner& at, LimitSink& sink);
+  std::uint8_t boundarySidesAt(const SubmeshCorner& at) const;
 
-  void emitFace(Index face, Index firstSlot, LimitSink& sink);
-  Patch patchAt(const Corner& at) const;
-  std::uint8_t boundarySidesAt(const Corner& at) const;
-  void split(const Corner& at, LimitSink& sink);
-  void joinFace(const Corner& at, const VertexSplit& split);
-  void joinVFace(const Corner& at, const VertexSplit& split);
-  void emitVFaces(LimitSink& sink);
-  void emitAround(ExtraordinaryFace& face, LimitSink& sink);
-  void emitBoundaryCorner(BoundaryCorner corner, CornerSquare square, LimitSink& sink);
-
-  /// Where an active corner of an extraordinary face is.
-  struct ActivePlace {
-    CornerSquare square;
-    std::uint8_t boundarySides = 0;
-  };
-
-  LocalImages images_;
+  LocalVertices vertices_;
   double tolerance_;
-  FaceImages faceImages_;
-  std::vector<Vec3d> facePoints_;  // level 2 in one face
-  VFaceLevel vFaces_;
-  std::vector<ActivePlace> vFacePlaces_, places_;  // per point of a V-face; of the face at hand
-  ExtraordinaryFace around_;                       // the face at level 2, if it is not a quad
-  bool joined_ = false;                            // whether around_ has active corners
-  ExtraordinaryFace vFace_, next_;
-  std::vector<Vec3d> innerImages_;
 };
 
 }  // namespace vox

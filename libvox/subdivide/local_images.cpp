@@ -23,7 +23,7 @@ void LocalImages::set(std::span<const Index> faces) {
   images_.clear();
   vFaces_.clear();
   vFacePoints_.clear();
-  faces_ = faces;
+  faces_.assign(faces.begin(), faces.end());
 
   for (const Index f : faces) addFace(f);
   ownSlots_ = static_cast<Index>(images_.size());
@@ -156,35 +156,22 @@ void LocalImages::addEdge(Index slot, Index next, Index corner) {
                                 : diameter(images_[slot], images_[next], edge.near, edge.far);
 }
 
-Patch LocalImages::patchAt(const SlotCorner& at) const {
+Patch LocalImages::around(const SubmeshCorner& at) const {
   const EdgeFace& right = edges_[at.slot()];
-  const EdgeFace& left = edges_[at.previous()];
+  const EdgeFace& left = edges_[at.previousSlot()];
   const Vec3d& centre = images_[at.slot()];
-  const bool vFaceExists = hasVFace(at.slot());
-  const Vec3d& beyond =
-      vFaceExists ? vFacePoints_[vFace(at.slot()).begin + (placeInVFace_[at.slot()] ^ 2U)] : centre;
+  const VFace& vFace = vFaces_[vFaceOf_[at.slot()]];
+  const bool vFaceExists = vFace.closed || extends();
+  const Vec3d& beyond = vFaceExists && vFace.size == 4
+                            ? vFacePoints_[vFace.begin + (placeInVFace_[at.slot()] ^ 2U)]
+                            : centre;
+  const Vec3d& opposite = at.size == 4 ? images_[at.oppositeSlot()] : centre;
   const unsigned quadrants =
       (vFaceExists ? 1U : 0U) | (left.exists ? 2U : 0U) | (right.exists ? 4U : 0U) | 8U;
   return {{{{beyond, left.far, left.near},
-            {right.near, centre, images_[at.previous()]},
-            {right.far, images_[at.next()], images_[at.opposite()]}}},
+            {right.near, centre, images_[at.previousSlot()]},
+            {right.far, images_[at.nextSlot()], opposite}}},
           static_cast<std::uint8_t>(quadrants)};
-}
-
-VertexSplit LocalImages::splitAt(const SlotCorner& at, std::span<const Vec3d> inFace) const {
-  const EdgeFace& right = edges_[at.slot()];
-  const EdgeFace& left = edges_[at.previous()];
-  const Vec3d& centre = images_[at.slot()];
-  VertexSplit split;
-  split.f0 = inFace[at.place];
-  split.fNext = inFace[at.next() - at.first];
-  split.fPrevious = inFace[at.previous() - at.first];
-  if (at.size == 4) split.fOpposite = inFace[at.opposite() - at.first];
-  split.r = quadImages(centre, images_[at.next()], right.far, right.near);
-  split.l = quadImages(centre, images_[at.previous()], left.near, left.far);
-  split.hasR = right.exists;
-  split.hasL = left.exists;
-  return split;
 }
 
 /// Sets the mirrored half E-face across a boundary edge of an extended surface.

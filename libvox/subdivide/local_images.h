@@ -1,23 +1,29 @@
 #pragma once
 
+#include "libvox/mesh/patch.h"
 #include "libvox/subdivide/face_images.h"
 #include "libvox/subdivide/level.h"
-#include "libvox/subdivide/vertex_split.h"
 
 #include <span>
 #include <vector>
 
 namespace vox {
 
-/// A corner of a face of a submesh, by slots (LocalImages).
-struct SlotCorner {
-  Index first;  ///< slot of the first corner of the face
-  Index place;  ///< of the corner in the face
-  Index size;   ///< number of corners of the face
+/// A corner of a face of a submesh. Corners have slots (LocalImages), face by face.
+struct SubmeshCorner {
+  Index first;   ///< slot of the first corner of the face
+  Index place;   ///< of the corner in the face
+  Index size;    ///< number of corners of the face
+  Index number;  ///< of the corner in the base mesh
+
   Index slot() const { return first + place; }
-  Index next() const { return place + 1 == size ? first : first + place + 1; }
-  Index previous() const { return (place == 0 ? first + size : first + place) - 1; }
-  Index opposite() const { return first + (place ^ 2U); }  ///< in a quad
+  Index nextSlot() const { return place + 1 == size ? first : first + place + 1; }
+  Index previousSlot() const { return (place == 0 ? first + size : first + place) - 1; }
+  Index oppositeSlot() const { return first + (place ^ 2U); }  ///< in a quad
+  SubmeshCorner next() const { return at(nextSlot() - first); }
+  SubmeshCorner previous() const { return at(previousSlot() - first); }
+  /// Another corner of the face.
+  SubmeshCorner at(Index other) const { return {first, other, size, number - place + other}; }
 };
 
 /// Level 1 of a submesh: the image vertices of its faces and of the faces of its one-ring, and the
@@ -54,15 +60,12 @@ class LocalImages {
   explicit LocalImages(const SubdivisionLevel& base);
 
   /// Replaces the submesh. Cost linear in the corners of the submesh and its one-ring.
-  /// @param faces  of the base; the span must stay valid until the next call
+  /// @param faces  of the base
   void set(std::span<const Index> faces);
 
   const SubdivisionLevel& base() const { return base_; }
-  std::span<const Index> faces() const { return faces_; }
   bool extends() const { return base_.boundary == BoundaryStage::kExtend; }
 
-  /// Number of corners of the submesh. Their slots are 0 .. ownSlots() - 1, face by face.
-  Index ownSlots() const { return ownSlots_; }
   const Vec3d& image(Index slot) const { return images_[slot]; }
   std::span<const Vec3d> imagesOfFace(Index firstSlot, Index size) const {
     return std::span(images_).subspan(firstSlot, size);
@@ -73,12 +76,24 @@ class LocalImages {
   Index placeInVFace(Index slot) const { return placeInVFace_[slot]; }
   bool hasVFace(Index slot) const { return vFace(slot).closed || extends(); }
 
-  /// The patch of the level-1 vertex of a corner of the submesh. Precondition: its face is a quad,
-  /// and its V-face a quad or missing.
-  Patch patchAt(const SlotCorner& at) const;
-  /// One step at the level-1 vertex of a corner of the submesh, without the images in the V-face.
-  /// @param inFace  images of the level-1 face of the corner
-  VertexSplit splitAt(const SlotCorner& at, std::span<const Vec3d> inFace) const;
+  /// Calls body(corner) with the first corner of each face of the submesh.
+  template <class Body>
+  void forEachFace(const Body& body) const {
+    Index slot = 0;
+    for (const Index f : faces_) {
+      const Index size = base_.mesh.faceSize(f);
+      body(SubmeshCorner{slot, 0, size, base_.mesh.faceOffsets[f]});
+      slot += size;
+    }
+  }
+
+  /// Whether the face of a corner and its V-face, if there is one, are quads.
+  bool isRegular(const SubmeshCorner& at) const {
+    return at.size == 4 && (!hasVFace(at.slot()) || vFace(at.slot()).size == 4);
+  }
+  /// The patch around the level-1 vertex of a corner of the submesh. Of a face that is not a quad,
+  /// the corner opposite the vertex has no meaning.
+  Patch around(const SubmeshCorner& at) const;
 
   const std::vector<VFace>& vFaces() const { return vFaces_; }
   /// Points of the V-faces, counter-clockwise; an open fan starts at the boundary edge that leaves
@@ -96,8 +111,8 @@ class LocalImages {
   void mirrorEdge(Index slot, Index next, Index corner);
 
   const SubdivisionLevel& base_;
-  std::span<const Index> faces_;
-  Index ownSlots_ = 0;
+  std::vector<Index> faces_;
+  Index ownSlots_ = 0;            // corners of the submesh; their slots are the first ones
   std::vector<Index> firstSlot_;  // per face of the base, or kNone
   std::vector<Index> known_;      // faces with slots
   std::vector<Index> vFaceAt_;    // per vertex of the base, or kNone

@@ -51,12 +51,8 @@ SideRow boundaryRow(const CurvePoints& curve, int log2Size, bool forward) {
 void LocalPolygons::findDepths(std::span<const Index> faces, const DepthRule& rule,
                                std::span<VertexDepth> depths) {
   vertices_.set(faces);
-  const PolygonMesh& mesh = vertices_.images().base().mesh;
-  Index slot = 0;
-  for (const Index f : faces) {
-    const Index size = mesh.faceSize(f);
-    Corner c{slot, 0, size, mesh.faceOffsets[f]};
-    for (Index i = 0; i < size; ++i, c = c.next()) {
+  vertices_.images().forEachFace([&](Corner c) {
+    for (Index i = 0; i < c.size; ++i, c = c.next()) {
       const LevelOneVertex vertex = vertices_.at(c);
       const BoundaryCurves curves = vertices_.curvesAt(c);
       if (vertex.regular) {
@@ -66,8 +62,7 @@ void LocalPolygons::findDepths(std::span<const Index> faces, const DepthRule& ru
       const VertexFaces around = vertices_.facesAt(c);
       depths[c.number] = rule.of(vertex, &around, curves);
     }
-    slot += size;
-  }
+  });
 }
 
 void LocalPolygons::emit(std::span<const Index> faces, std::span<const VertexDepth> depths,
@@ -75,13 +70,8 @@ void LocalPolygons::emit(std::span<const Index> faces, std::span<const VertexDep
   vertices_.set(faces);
   rule_ = rule;
   depths_ = depths;
-  const PolygonMesh& mesh = vertices_.images().base().mesh;
   PolygonPieces pieces(sink);
-  Index slot = 0;
-  for (const Index f : faces) {
-    emitFace({slot, 0, mesh.faceSize(f), mesh.faceOffsets[f]}, pieces, sink);
-    slot += mesh.faceSize(f);
-  }
+  vertices_.images().forEachFace([&](const Corner& first) { emitFace(first, pieces, sink); });
   pieces.flush();
 }
 

@@ -34,7 +34,7 @@ class LocalPolygons {
                   std::span<VertexDepth> depths);
 
   /// Gives the sink the polygons that some faces own.
-  /// @param faces   the span must stay valid until the next call
+  /// @param faces   of the base
   /// @param depths  one per corner of the base mesh; u = v for irregular vertices
   /// @param rule    if not null, a block of the array of an irregular vertex gets only the vertices
   ///   that it needs by this rule, except for its outermost rows
@@ -42,7 +42,7 @@ class LocalPolygons {
             const DepthRule* rule, PolygonSink& sink);
 
  private:
-  using Corner = LocalVertices::Corner;
+  using Corner = SubmeshCorner;
 
   void emitFace(const Corner& first, PolygonPieces& pieces, PolygonSink& sink);
   void emitArray(const VertexArray& array, bool whole, PolygonPieces& pieces, PolygonSink& sink);

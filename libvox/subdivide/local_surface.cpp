@@ -2,174 +2,168 @@
 
 #include "libvox/subdivide/local_surface.h"
 
-#include "libvox/subdivide/sizes.h"
+#include "libvox/mesh/chaikin.h"
 #include "libvox/subdivide/stop.h"
+#include "libvox/subdivide/thin_patch.h"
 
 #include <algorithm>
+#include <array>
 
 namespace vox {
-void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
-  images_.set(faces);
-  vFaces_.reset(images_);
-  finished_.clear();
-  finishedChildren_.clear();
+namespace {
 
-  Index slot = 0;
-  for (const Index f : faces) {
-    const Index size = images_.base().mesh.faceSize(f);
-    emitFace(slot, size, sink);
-    if (images_.extends()) emitBoundary(f, slot, sink);
-    slot += size;
-  }
-  if (!finished_.empty()) sink.points(finished_, 1);
-  if (!finishedChildren_.empty()) sink.points(finishedChildren_, 2);
-  emitVFaces(sink);
+/// Largest diameter of the faces around a corner; of mirrored faces, that of the real half.
+double largestDiameter(const FaceCorner& corner, int level) {
+  const auto& p = corner.around.points;
+  const Vec3d& at = p[1][1];
+  const FaceLevels& face = corner.face;
+  double size = corner.face.shape(level).diameter;
+  const auto takeSide = [&](bool mirrored, const Vec3d& beside, const Vec3d& far,
+                            const Vec3d& near) {
+    size = std::max(size, mirrored ? diameter(at, middle(at, beside), middle(near, far), near)
+                                   : diameter(at, beside, far, near));
+  };
+  const unsigned quadrants = corner.around.quadrants;
+  if ((quadrants & 4U) != 0)
+    takeSide(face.mirrored() && corner.place + 1 == face.real(), p[2][1], p[2][0], p[1][0]);
+  if ((quadrants & 2U) != 0)
+    takeSide(face.mirrored() && corner.place == 0, p[1][2], p[0][2], p[0][1]);
+  if ((quadrants & 1U) != 0) size = std::max(size, diameter(at, p[1][0], p[0][0], p[0][1]));
+  return size;
 }
 
-void LocalSurface::emitFace(Index firstSlot, Index size, SurfaceSink& sink) {
-  const auto points = images_.imagesOfFace(firstSlot, size);
-  const double faceDiameter = diameter(points);
-  const double contractionHere = std::max(contraction(size), contraction(4));
-  irregular_.clear();
-  for (Index i = 0; i < size; ++i) {
-    const Corner at{firstSlot, i, size};
-    if (isRegular(at)) {
-      emitSmall(images_.patchAt(at), 1, finished_, sink);
+double largestDiameter(const BoundaryCorner& at) {
+  const std::array<Vec3d, 3> triangle = {at.u, at.mStart, at.mEnd};
+  return std::max({diameter(triangle), diameter(at.u, at.right, at.mRight, at.mStart),
+                   diameter(at.u, at.left, at.mLeft, at.mEnd),
+                   diameter(at.u, at.right, at.opposite, at.left)});
+}
+
+}  // namespace
+
+/// Collects the vertices that are fine enough and gives other regular ones to a sink.
+class LocalSurface::FineVertices {
+ public:
+  FineVertices(std::vector<std::vector<Vec3d>>& finished, SurfaceSink& sink)
+      : finished_(finished), sink_(sink) {}
+
+  void regular(const Patch& patch, int level, const CornerSquare& /*square*/) {
+    const int depth = patchDepth(patch);
+    if (depth == 0) return finish(patch.points[1][1], level);
+    emitRegular(PatchPart(patch, depth), level, sink_);
+  }
+
+  bool ends(const FaceCorner& corner, int level, const CornerSquare& /*square*/) {
+    const double largest = largestDiameter(corner, level);
+    const auto& p = corner.around.points;
+    if (largest <= kVertexConversionSpan) {
+      finish(p[1][1], level);
+      return true;
+    }
+    const double contractionHere = std::max(contraction(corner.face.size()), contraction(4));
+    if (corner.face.mirrored() || corner.around.quadrants != kAllQuadrants ||
+        !childrenFineEnough(largest, contractionHere))
+      return false;
+    finishChildren(corner.around, corner.face.corners(level + 1)[corner.place],
+                   quadImage(p[1][1], p[1][0], p[0][1], p[0][0]), level);
+    return true;
+  }
+
+  bool ends(const BoundaryCorner& corner, int level, const CornerSquare& /*square*/) {
+    if (largestDiameter(corner) > kVertexConversionSpan) return false;
+    finish(corner.u, level);
+    return true;
+  }
+
+  void finish(const Vec3d& vertex, int level) {
+    const auto count = static_cast<std::size_t>(level);
+    if (finished_.size() < count) finished_.resize(count);
+    finished_[count - 1].push_back(vertex);
+  }
+  /// Finishes the four children of a vertex of `level`.
+  void finishChildren(const Patch& around, const Vec3d& inF, const Vec3d& inVFace, int level) {
+    const auto& p = around.points;
+    finish(inF, level + 1);
+    finish(quadImage(p[1][1], p[2][1], p[1][0], p[2][0]), level + 1);
+    finish(quadImage(p[1][1], p[1][2], p[0][1], p[0][2]), level + 1);
+    finish(inVFace, level + 1);
+  }
+  /// Gives the sink what is finished.
+  void flush() {
+    for (std::size_t i = 0; i < finished_.size(); ++i) {
+      if (!finished_[i].empty()) sink_.points(finished_[i], static_cast<int>(i) + 1);
+      finished_[i].clear();
+    }
+  }
+
+ private:
+  std::vector<std::vector<Vec3d>>& finished_;
+  SurfaceSink& sink_;
+};
+
+void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
+  vertices_.set(faces);
+  FineVertices fine(finished_, sink);
+  vertices_.images().forEachFace([&](const SubmeshCorner& first) {
+    emitFace(first, fine);
+    if (vertices_.images().extends()) emitBoundary(first, sink);
+  });
+  fine.flush();
+}
+
+void LocalSurface::emitFace(const SubmeshCorner& first, FineVertices& fine) {
+  const LocalImages& images = vertices_.images();
+  const double faceDiameter = diameter(images.imagesOfFace(first.first, first.size));
+  const double contractionHere = std::max(contraction(first.size), contraction(4));
+  for (Index i = 0; i < first.size; ++i) {
+    const SubmeshCorner at = first.at(i);
+    if (images.isRegular(at)) {
+      fine.regular(images.around(at), 1, {});
       continue;
     }
     const double largest = diameterAround(at, faceDiameter);
     if (largest <= kVertexConversionSpan) {
-      finished_.push_back(images_.image(at.slot()));
+      fine.finish(images.image(at.slot()), 1);
       continue;
     }
     const double contractionAround =
-        std::max(contractionHere, contraction(images_.vFace(at.slot()).size));
-    irregular_.push_back({at, isInside(at) && childrenFineEnough(largest, contractionAround)});
-  }
-  if (irregular_.empty()) return;
-
-  facePoints_.resize(size);
-  faceImages_.of(points, facePoints_);
-  faceDiameter_ = diameter(facePoints_);
-  joined_ = false;
-  for (const auto& [at, last] : irregular_)
-    if (last)
-      finishChildren(at);
+        std::max(contractionHere, contraction(images.vFace(at.slot()).size));
+    const LevelOneVertex vertex = vertices_.at(at);
+    if (isInside(at) && childrenFineEnough(largest, contractionAround))
+      fine.finishChildren(vertex.around, vertex.face->corners(2)[vertex.place],
+                          vertex.vFace->corners(2)[vertex.placeInVFace], 1);
     else
-      split(at, sink);
-  if (joined_) extraordinary_.run(around_, 2, sink);
-}
-
-bool LocalSurface::isRegular(const Corner& at) const {
-  if (at.size != 4) return false;
-  const LocalImages::VFace& vFace = images_.vFace(at.slot());
-  return vFace.size == 4 || !images_.hasVFace(at.slot());
+      Descent(fine).below(vertex, {});
+  }
 }
 
 /// Largest diameter of the faces around a level-1 vertex.
-double LocalSurface::diameterAround(const Corner& at, double faceDiameter) const {
-  return std::max({faceDiameter, images_.edgeFace(at.slot()).diameter,
-                   images_.edgeFace(at.previous()).diameter, images_.vFace(at.slot()).diameter});
+double LocalSurface::diameterAround(const SubmeshCorner& at, double faceDiameter) const {
+  const LocalImages& images = vertices_.images();
+  return std::max({faceDiameter, images.edgeFace(at.slot()).diameter,
+                   images.edgeFace(at.previousSlot()).diameter, images.vFace(at.slot()).diameter});
 }
 
 /// Whether no face around a level-1 vertex is at the boundary.
-bool LocalSurface::isInside(const Corner& at) const {
-  return images_.vFace(at.slot()).closed && images_.edgeFace(at.slot()).interior &&
-         images_.edgeFace(at.previous()).interior;
-}
-
-/// Emits a regular vertex of `level`; if it is fine enough, appends it to `finished` instead.
-void LocalSurface::emitSmall(const Patch& patch, int level, std::vector<Vec3d>& finished,
-                             SurfaceSink& sink) {
-  if (patchDepth(patch) == 0)
-    finished.push_back(patch.points[1][1]);
-  else
-    emitRegular(patch, level, sink);
-}
-
-/// Collects the four children of a level-1 vertex inside the surface; they are fine enough.
-void LocalSurface::finishChildren(const Corner& at) {
-  const LocalImages::EdgeFace& right = images_.edgeFace(at.slot());
-  const LocalImages::EdgeFace& left = images_.edgeFace(at.previous());
-  const Vec3d& center = images_.image(at.slot());
-  const auto inVFace = vFaces_.points(images_, images_.vFaceNumber(at.slot()));
-  finishedChildren_.push_back(facePoints_[at.place]);
-  finishedChildren_.push_back(quadImage(center, images_.image(at.next()), right.near, right.far));
-  finishedChildren_.push_back(quadImage(center, images_.image(at.previous()), left.far, left.near));
-  finishedChildren_.push_back(inVFace[images_.placeInVFace(at.slot())]);
-}
-
-/// One step at a level-1 vertex. Emits the children that are regular or fine enough; the others
-/// become active corners of the face or the V-face in which they lie.
-void LocalSurface::split(const Corner& at, SurfaceSink& sink) {
-  VertexSplit split = images_.splitAt(at, facePoints_);
-  vFaces_.setImages(images_, at, split);
-  const ChildSizes sizes = isInside(at) ? childSizes(split) : kUnknownSizes;
-
-  const LocalImages::VFace& vFace = images_.vFace(at.slot());
-  const auto fits = [](double size) { return size <= kVertexConversionSpan; };
-  if (fits(sizes.r))
-    finishedChildren_.push_back(split.r[0]);
-  else if (split.hasR)
-    emitRegular(split.childInR(), 2, sink);
-  if (fits(sizes.l))
-    finishedChildren_.push_back(split.l[0]);
-  else if (split.hasL)
-    emitRegular(split.childInL(), 2, sink);
-  if (at.size == 4)
-    emitSmall(split.childInF(), 2, finishedChildren_, sink);
-  else if (fits(std::max(faceDiameter_, sizes.f)))
-    finishedChildren_.push_back(split.f0);
-  else
-    joinFace(at, split);
-  if (split.hasVFace && vFace.size == 4)
-    emitSmall(split.childInVFace(), 2, finishedChildren_, sink);
-  else if (fits(std::max(vFaces_.diameter(images_.vFaceNumber(at.slot())), sizes.vFace)))
-    finishedChildren_.push_back(split.vFace0);
-  else if (split.hasVFace && vFace.size > 1)
-    vFaces_.join(images_, at, split);
-  else if (split.hasVFace)
-    subdivideBoundaryCorner(
-        TriangleImages(images_.image(at.slot()), vFace.mStart, vFace.mEnd).below(split), 2, sink);
-}
-
-/// Makes the corner an active corner of its face at level 2.
-void LocalSurface::joinFace(const Corner& at, const VertexSplit& split) {
-  if (!joined_) {
-    around_.reset(at.size);
-    around_.inner = facePoints_;
-    joined_ = true;
-  }
-  const std::size_t i = at.place;
-  const std::size_t j = at.previous() - at.first;
-  around_.join(i, split);
-  around_.hasEdge[i] = split.hasR;
-  around_.hasEdge[j] = split.hasL;
-  around_.hasCorner[i] = split.hasR && split.hasL && split.hasVFace;
-}
-
-void LocalSurface::emitVFaces(SurfaceSink& sink) {
-  for (const LocalImages::VFace& vFace : images_.vFaces())
-    if (vFaces_.get(vFace, vFace_)) extraordinary_.run(vFace_, 2, sink);
+bool LocalSurface::isInside(const SubmeshCorner& at) const {
+  const LocalImages& images = vertices_.images();
+  return images.vFace(at.slot()).closed && images.edgeFace(at.slot()).interior &&
+         images.edgeFace(at.previousSlot()).interior;
 }
 
 /// Emits the boundary points of the boundary edges of a face.
-void LocalSurface::emitBoundary(Index f, Index firstSlot, SurfaceSink& sink) {
-  const PolygonMesh& mesh = images_.base().mesh;
-  const Index size = mesh.faceSize(f);
-  for (Index i = 0; i < size; ++i) {
-    const Index c = mesh.faceOffsets[f] + i;
-    if (images_.base().adjacency.twin[c] != kNone) continue;
-    const Corner at{firstSlot, i, size};
-    const LocalImages::VFace& start = images_.vFace(at.slot());
-    const LocalImages::VFace& end = images_.vFace(at.next());
-    const double edge = images_.edgeFace(at.slot()).diameter;
+void LocalSurface::emitBoundary(const SubmeshCorner& first, SurfaceSink& sink) {
+  const LocalImages& images = vertices_.images();
+  for (Index i = 0; i < first.size; ++i) {
+    const SubmeshCorner at = first.at(i);
+    if (!vertices_.isBoundary(at)) continue;
+    const double edge = images.edgeFace(at.slot()).diameter;
     const auto emit = [&](const CurvePoints& points, double vFaceDiameter) {
       const int k = curveDepth(std::max(edge, vFaceDiameter));
       sink.curve(points, k, 1 + k);
     };
-    emit({start.mEnd, start.mStart, end.mEnd}, start.diameter);
-    emit({start.mStart, end.mEnd, end.mStart}, end.diameter);
+    emit(vertices_.curveAcrossR(at), images.vFace(at.slot()).diameter);
+    emit(vertices_.curveAcrossL(at.next()), images.vFace(at.nextSlot()).diameter);
   }
 }
 

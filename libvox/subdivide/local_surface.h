@@ -1,10 +1,7 @@
 #pragma once
 
 #include "libvox/mesh/patch.h"
-#include "libvox/subdivide/extraordinary.h"
-#include "libvox/subdivide/local_images.h"
-#include "libvox/subdivide/v_face_level.h"
-#include "libvox/subdivide/vertex_split.h"
+#include "libvox/subdivide/local_vertices.h"
 
 #include <span>
 #include <vector>
@@ -13,8 +10,7 @@ namespace vox {
 
 /// Subdivides submeshes of a base mesh, each vertex only until it is fine enough (stop.h). A
 /// refined mesh is never built: a regular vertex goes to the sink as a patch, and the irregular
-/// vertices around an extraordinary face or vertex are subdivided level by level
-/// (ExtraordinaryFace).
+/// vertices around an extraordinary face or vertex are subdivided level by level (Descent).
 ///
 /// A face owns its corners. A corner owns the level-1 vertex that it makes and all descendants of
 /// this vertex; at an extended boundary also the boundary points of its edge. So if submeshes cover
@@ -26,44 +22,23 @@ class LocalSurface {
  public:
   /// @param base  level 0, in index space: an oriented manifold with one fan of faces at each
   /// vertex
-  explicit LocalSurface(const SubdivisionLevel& base) : images_(base) {}
+  explicit LocalSurface(const SubdivisionLevel& base) : vertices_(base) {}
 
   /// Gives the sink all vertices that the corners of some faces own, each at its own level.
-  /// @param faces  of the base; the span must stay valid until the next call
+  /// @param faces  of the base
   /// @throws LimitError  coordinates are out of range
   void emit(std::span<const Index> faces, SurfaceSink& sink);
 
  private:
-  using Corner = SlotCorner;
+  class FineVertices;
 
-  void emitFace(Index firstSlot, Index size, SurfaceSink& sink);
-  bool isRegular(const Corner& corner) const;
-  double diameterAround(const Corner& corner, double faceDiameter) const;
-  bool isInside(const Corner& corner) const;
-  static void emitSmall(const Patch& patch, int level, std::vector<Vec3d>& finished,
-                        SurfaceSink& sink);
-  void finishChildren(const Corner& corner);
-  void split(const Corner& corner, SurfaceSink& sink);
-  void joinFace(const Corner& corner, const VertexSplit& split);
-  void emitVFaces(SurfaceSink& sink);
-  void emitBoundary(Index f, Index firstSlot, SurfaceSink& sink);
+  void emitFace(const SubmeshCorner& first, FineVertices& fine);
+  double diameterAround(const SubmeshCorner& corner, double faceDiameter) const;
+  bool isInside(const SubmeshCorner& corner) const;
+  void emitBoundary(const SubmeshCorner& first, SurfaceSink& sink);
 
-  LocalImages images_;
-  FaceImages faceImages_;
-  std::vector<Vec3d> finished_;          // level-1 vertices that are fine enough
-  std::vector<Vec3d> finishedChildren_;  // level-2 vertices that are fine enough
-  std::vector<Vec3d> facePoints_;        // level 2 in one face
-  double faceDiameter_ = 0;              // of facePoints_
-  struct Irregular {
-    Corner at;
-    bool last;  // its children are fine enough
-  };
-  std::vector<Irregular> irregular_;  // corners of one face
-  ExtraordinaryFace around_;          // the face at level 2, if it is not a quad
-  bool joined_ = false;               // whether around_ has active corners
-  VFaceLevel vFaces_;
-  ExtraordinaryFace vFace_;  // a V-face at level 2
-  ExtraordinarySubdivision extraordinary_;
+  LocalVertices vertices_;
+  std::vector<std::vector<Vec3d>> finished_;  // vertices that are fine enough, by level
 };
 
 }  // namespace vox

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "libvox/mesh/patch.h"
-#include "libvox/subdivide/sizes.h"
+#include "libvox/subdivide/patch_steps.h"
 
 #include <span>
 

@@ -3,8 +3,8 @@
 #include "libvox/subdivide/thin_patch.h"
 
 #include "libvox/mesh/patch_parts.h"
+#include "libvox/subdivide/patch_steps.h"
 #include "libvox/subdivide/patch_strips.h"
-#include "libvox/subdivide/sizes.h"
 
 #include <Eigen/Geometry>
 
@@ -66,7 +66,7 @@ Patch turnedForRows(const Patch& patch) {
   const bool turn =
       alike ? std::abs(extentAcross(patch)) > std::abs(extentAcross(turned)) : there > here;
   const Patch& chosen = turn ? turned : patch;
-  return extentAcross(chosen) < 0 ? quarterTurn(quarterTurn(chosen)) : chosen;
+  return extentAcross(chosen) < 0 ? halfTurn(chosen) : chosen;
 }
 
 /// Approximate width of the surface of the descendants: its area, a quarter of each face, divided
@@ -78,6 +78,16 @@ double meanWidth(const Patch& patch) {
     for (std::size_t v = 0; v < 2; ++v)
       area += (p[u + 1][v + 1] - p[u][v]).cross(p[u][v + 1] - p[u + 1][v]).norm() / 2;
   return area / 4 / ((p[1][2] - p[1][0]).norm() / 2);
+}
+
+/// Emits the rows as curves; the columns are rows of the patch turned by a quarter.
+void emitThin(const ThinPatch& thin, int level, SurfaceSink& sink) {
+  const int k = thin.levels;
+  const std::int64_t n = std::int64_t{1} << k;
+  for (const std::int64_t i : thin.rows) sink.curve(rowOf(thin.patch, {i, n}), k, level + k);
+  const Patch across = quarterTurn(thin.patch);
+  for (const std::int64_t j : {std::int64_t{0}, n - 1})
+    sink.curve(rowOf(across, {j, n}), k, level + k);
 }
 
 }  // namespace
@@ -121,6 +131,18 @@ std::optional<std::array<PatchPart, 4>> cheaperChildren(const ThinPatch& thin) {
   constexpr double kFarFewer = 0.75;
   if (vertices > kFarFewer * static_cast<double>(thin.vertices())) return std::nullopt;
   return children;
+}
+
+void emitRegular(const PatchPart& whole, int level, SurfaceSink& sink) {
+  forEachPatchPart(
+      whole, level,
+      [&](const ThinPatch& thin, int levelOfPart) { emitThin(thin, levelOfPart, sink); },
+      [&](const Patch& part, int levels, int levelOfPart) {
+        if (levels == 0)
+          sink.points({&part.points[1][1], 1}, levelOfPart);
+        else
+          sink.patch(part, levels, levelOfPart + levels);
+      });
 }
 
 }  // namespace vox

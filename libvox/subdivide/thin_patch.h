@@ -34,8 +34,10 @@ std::optional<ThinPatch> thinPatch(const Patch& patch, int levels);
 
 /// A regular vertex with its depth and, if it is thin, its thin patch.
 struct PatchPart {
-  explicit PatchPart(const Patch& vertex)
-      : patch(vertex), levels(patchDepth(vertex)), thin(thinPatch(vertex, levels)) {}
+  explicit PatchPart(const Patch& vertex) : PatchPart(vertex, patchDepth(vertex)) {}
+  /// @param depth  patchDepth(vertex)
+  PatchPart(const Patch& vertex, int depth)
+      : patch(vertex), levels(depth), thin(thinPatch(vertex, depth)) {}
   Patch patch;
   int levels;
   std::optional<ThinPatch> thin;
@@ -56,5 +58,9 @@ void forEachPatchPart(const PatchPart& part, int level, Thin&& thin, Whole&& who
   if (!children) return thin(*part.thin, level);
   for (const PatchPart& child : *children) forEachPatchPart(child, level + 1, thin, whole);
 }
+
+/// Gives the sink the descendants of a regular vertex of `level`: as a point, as a patch or, for
+/// thin parts of it, as some rows and the two outermost columns.
+void emitRegular(const PatchPart& part, int level, SurfaceSink& sink);
 
 }  // namespace vox

@@ -1,11 +1,9 @@
 #pragma once
 
 #include "libvox/mesh/patch.h"
-#include "libvox/subdivide/extraordinary_levels.h"
-#include "libvox/subdivide/vertex_split.h"
+#include "libvox/subdivide/level_one_vertex.h"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,36 +18,6 @@ struct VertexDepth {
 
 /// Largest depth: a vertex has 2^60 descendants there, more than fit into any memory.
 inline constexpr int kMostDepth = 30;
-
-/// A level-1 vertex and the points around it. Points that are not known are 0. Rows of descendants
-/// that do not depend on them have the same bits as if they were known.
-struct LevelOneVertex {
-  LevelOneVertex();
-
-  Vec3d at = Vec3d::Zero();
-  bool regular = false;
-  Patch patch;  ///< only for a regular vertex
-
-  // Only for an irregular vertex:
-  VertexSplit split;
-  bool quadF = true;      ///< false: F is not a quad, and levelsOfF is set
-  bool quadVFace = true;  ///< false: the V-face is not a quad, and levelsOfVFace is set
-  /// The levels of F, and the place of the vertex among its corners.
-  ExtraordinaryLevels* levelsOfF = nullptr;
-  std::size_t placeInF = 0;
-  /// The same for the V-face. Its corners run the other way round: the next corner lies across L.
-  ExtraordinaryLevels* levelsOfVFace = nullptr;
-  std::size_t placeInVFace = 0;
-  /// In place of the V-face: the child in it, if the base vertex is on the boundary and has only
-  /// one face.
-  std::optional<BoundaryCorner> corner;
-
-  /// Whether all four faces around the vertex exist, so that there are faces between its
-  /// descendants.
-  bool whole() const {
-    return regular ? patch.quadrants == kAllQuadrants : split.hasR && split.hasL && split.hasVFace;
-  }
-};
 
 /// The descendants of a level-1 vertex. For all valences they are an array of 2^u x 2^v vertices
 /// with quads between them. F lies at the corner of the array where u and v are largest, the V-face
@@ -106,12 +74,7 @@ class VertexArray {
   Vec3d cornerL() const { return at(0, sizeV() - 1); }
 
  private:
-  void add(const Patch& patch, std::int64_t u, std::int64_t v, int k);
-  void addPoint(const Vec3d& point, std::int64_t u, std::int64_t v);
-  void addInF(ExtraordinaryLevels& levels, std::size_t place, std::int64_t u, std::int64_t v,
-              int k);
-  void addInVFace(ExtraordinaryLevels& levels, std::size_t place, int k);
-  void addInCorner(BoundaryCorner corner, int k);
+  class Blocks;
 
   VertexDepth depth_;
   std::vector<Block> blocks_;

@@ -1,9 +1,8 @@
-// The patches of the children of a vertex, as far as they are regular.
+// The images around a vertex, and the patches of its children.
 
 #include "libvox/subdivide/vertex_split.h"
 
-#include "libvox/mesh/patch_parts.h"
-#include "libvox/subdivide/thin_patch.h"
+#include "libvox/subdivide/face_images.h"
 
 namespace vox {
 namespace {
@@ -14,28 +13,32 @@ std::uint8_t quadrants(bool q0, bool q1, bool q2, bool q3) {
                                    (q3 ? 8U : 0U));
 }
 
-/// Emits the rows as curves; the columns are rows of the patch turned by a quarter.
-void emitThin(const ThinPatch& thin, int level, SurfaceSink& sink) {
-  const int k = thin.levels;
-  const std::int64_t n = std::int64_t{1} << k;
-  for (const std::int64_t i : thin.rows) sink.curve(rowOf(thin.patch, {i, n}), k, level + k);
-  const Patch across = quarterTurn(thin.patch);
-  for (const std::int64_t j : {std::int64_t{0}, n - 1})
-    sink.curve(rowOf(across, {j, n}), k, level + k);
+/// The points of a face at a corner, at the next one, opposite it in a quad (else 0), and at the
+/// previous one.
+std::array<Vec3d, 4> fromCorner(std::span<const Vec3d> points, std::size_t place) {
+  const std::size_t n = points.size();
+  return {points[place], points[place + 1 == n ? 0 : place + 1],
+          n == 4 ? points[place ^ 2U] : Vec3d::Zero(), points[(place == 0 ? n : place) - 1]};
 }
 
 }  // namespace
 
-void emitRegular(const Patch& patch, int level, SurfaceSink& sink) {
-  forEachPatchPart(
-      PatchPart(patch), level,
-      [&](const ThinPatch& thin, int levelOfPart) { emitThin(thin, levelOfPart, sink); },
-      [&](const Patch& part, int levels, int levelOfPart) {
-        if (levels == 0)
-          sink.points({&part.points[1][1], 1}, levelOfPart);
-        else
-          sink.patch(part, levels, levelOfPart + levels);
-      });
+VertexSplit::VertexSplit(const Patch& around)
+    : hasR((around.quadrants & 4U) != 0),
+      hasL((around.quadrants & 2U) != 0),
+      hasVFace((around.quadrants & 1U) != 0) {
+  const auto& p = around.points;
+  r = quadImages(p[1][1], p[2][1], p[2][0], p[1][0]);
+  l = quadImages(p[1][1], p[1][2], p[0][2], p[0][1]);
+}
+
+void VertexSplit::setF(std::span<const Vec3d> images, std::size_t place) {
+  setF(fromCorner(images, place));
+}
+
+void VertexSplit::setVFace(std::span<const Vec3d> images, std::size_t place) {
+  const auto [at, left, opposite, right] = fromCorner(images, place);
+  setVFace({at, right, opposite, left});
 }
 
 Patch VertexSplit::childInR() const {
@@ -59,19 +62,6 @@ Patch VertexSplit::childInF() const {
 Patch VertexSplit::childInVFace() const {
   return {{{{vFaceOpposite, vFaceLeft, l[3]}, {vFaceRight, vFace0, l[0]}, {r[3], r[0], f0}}},
           quadrants(true, hasL, hasR, hasR && hasL)};
-}
-
-void VertexSplit::emitSides(int level, SurfaceSink& sink) const {
-  if (hasR) emitRegular(childInR(), level, sink);
-  if (hasL) emitRegular(childInL(), level, sink);
-}
-
-void VertexSplit::emitInF(int level, SurfaceSink& sink) const {
-  emitRegular(childInF(), level, sink);
-}
-
-void VertexSplit::emitInVFace(int level, SurfaceSink& sink) const {
-  if (hasVFace) emitRegular(childInVFace(), level, sink);
 }
 
 }  // namespace vox

@@ -1,7 +1,10 @@
 #pragma once
 
 #include "libvox/mesh/patch.h"
-#include "libvox/subdivide/stop.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
 
 namespace vox {
 
@@ -26,16 +29,16 @@ namespace vox {
 /// In patches, F lies at u+, v+; the V-face at u-, v-; R at u+, v-; L at u-, v+.
 // clang-format on
 struct VertexSplit {
-  Vec3d f0, fNext, fPrevious;
+  /// Sets the images in R and L. The others are 0 until they are set.
+  /// @param around  the patch around the vertex; its corners in F and in the V-face are not used
+  explicit VertexSplit(const Patch& around);
+
+  Vec3d f0 = Vec3d::Zero(), fNext = Vec3d::Zero(), fPrevious = Vec3d::Zero();
   Vec3d fOpposite = Vec3d::Zero();
-  std::array<Vec3d, 4> r;
-  std::array<Vec3d, 4> l;
+  std::array<Vec3d, 4> r, l;
   Vec3d vFace0 = Vec3d::Zero(), vFaceRight = Vec3d::Zero(), vFaceOpposite = Vec3d::Zero();
   Vec3d vFaceLeft = Vec3d::Zero();
-  // At a free boundary some of the faces do not exist. F always does.
-  bool hasR = true;
-  bool hasL = true;
-  bool hasVFace = true;
+  bool hasR, hasL, hasVFace;  ///< at a free boundary some of the faces do not exist; F always does
 
   /// Set the images in F and in the V-face if these are quads: from i on, first towards R.
   void setF(const std::array<Vec3d, 4>& images) {
@@ -44,24 +47,18 @@ struct VertexSplit {
   void setVFace(const std::array<Vec3d, 4>& images) {
     vFace0 = images[0], vFaceRight = images[1], vFaceOpposite = images[2], vFaceLeft = images[3];
   }
+  /// The same for faces of any size, of whose corners the vertex is number `place`; both faces are
+  /// counter-clockwise.
+  void setF(std::span<const Vec3d> images, std::size_t place);
+  void setVFace(std::span<const Vec3d> images, std::size_t place);
 
   /// The patches of the children. Those in R and L are always regular; the one in F if F is a quad,
-  /// the one in the V-face if this is a quad.
+  /// the one in the V-face if this is a quad. Else the corner of the patch in F, or in the V-face,
+  /// has no meaning.
   Patch childInR() const;
   Patch childInL() const;
   Patch childInF() const;
   Patch childInVFace() const;
-
-  /// Gives the sink the children in R and L, vertices of `level`, as far as they exist.
-  void emitSides(int level, SurfaceSink& sink) const;
-  /// Gives the sink the child in F. Precondition: F is a quad.
-  void emitInF(int level, SurfaceSink& sink) const;
-  /// Gives the sink the child in the V-face, if that exists. Precondition: it is a quad.
-  void emitInVFace(int level, SurfaceSink& sink) const;
 };
-
-/// Gives the sink the descendants of a regular vertex of `level`: as a point, as a patch or, for
-/// thin parts of it, as some rows and the two outermost columns (ThinPatch).
-void emitRegular(const Patch& patch, int level, SurfaceSink& sink);
 
 }  // namespace vox

@@ -6,6 +6,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/grid/leaf_words.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/volume/disjoint_sets.h"
 #include "libvox/volume/leaf_regions.h"
@@ -45,13 +46,6 @@ struct ByRow {
     return std::make_tuple(a.z(), a.y(), a.x()) < std::make_tuple(b.z(), b.y(), b.x());
   }
 };
-
-LeafWords wordsOf(const Leaf& leaf) {
-  LeafWords words{};
-  for (openvdb::Index x = 0; x < words.size(); ++x)
-    words[x] = leaf.getValueMask().getWord<openvdb::Index64>(x);
-  return words;
-}
 
 /// Whether a place in a node has neither a child nor an active tile.
 template <class Node>
@@ -137,7 +131,7 @@ class Flood {
       const std::size_t end = std::min(leaves_.size(), (task + 1) * kLeavesPerTask);
       for (std::size_t i = task * kLeavesPerTask; i < end; ++i) {
         const std::size_t before = ofTask[task].size();
-        appendInactiveRegions(wordsOf(*leaves_[i]), ofTask[task]);
+        appendInactiveRegions(activeWords(*leaves_[i]), ofTask[task]);
         firstRegion_[i + 1] = static_cast<Element>(ofTask[task].size() - before);
       }
     });

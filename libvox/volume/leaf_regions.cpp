@@ -2,58 +2,19 @@
 
 #include "libvox/volume/leaf_regions.h"
 
-#include <algorithm>
-#include <bit>
-
 namespace vox {
 namespace {
 
 constexpr std::uint64_t kLowZ = 0x0101010101010101;
-constexpr std::uint64_t kHighZ = kLowZ << 7U;
 
 bool isEmpty(const LeafWords& leaf) {
-  return std::all_of(leaf.begin(), leaf.end(), [](std::uint64_t word) { return word == 0; });
-}
-
-int lowestVoxel(const LeafWords& leaf) {
-  int x = 0;
-  while (leaf[static_cast<std::size_t>(x)] == 0) ++x;
-  return 64 * x + std::countr_zero(leaf[static_cast<std::size_t>(x)]);
-}
-
-/// The voxels of a plane and their neighbours in the plane.
-std::uint64_t grownInPlane(std::uint64_t word) {
-  return word | word << 8U | word >> 8U | (word & ~kHighZ) << 1U | (word & ~kLowZ) >> 1U;
-}
-
-/// The set of voxels within `allowed` that are connected to a voxel through faces.
-LeafWords floodedFrom(int voxel, const LeafWords& allowed) {
-  LeafWords flooded{};
-  flooded[static_cast<std::size_t>(voxel / 64)] = std::uint64_t{1} << (voxel % 64);
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (std::size_t x = 0; x < flooded.size(); ++x) {
-      std::uint64_t word = grownInPlane(flooded[x]);
-      if (x > 0) word |= flooded[x - 1];
-      if (x + 1 < flooded.size()) word |= flooded[x + 1];
-      word &= allowed[x];
-      grows |= word != flooded[x];
-      flooded[x] = word;
-    }
-  }
-  return flooded;
+  return leaf == LeafWords{};
 }
 
 LeafWords eroded(const LeafWords& leaf) {
-  LeafWords inactive{};
-  LeafWords result{};
-  for (std::size_t x = 0; x < leaf.size(); ++x) inactive[x] = ~leaf[x];
-  for (std::size_t x = 0; x < leaf.size(); ++x) {
-    std::uint64_t gone = grownInPlane(inactive[x]);
-    if (x > 0) gone |= inactive[x - 1];
-    if (x + 1 < leaf.size()) gone |= inactive[x + 1];
-    result[x] = ~gone;
-  }
+  const LeafWords lost = neighboursOf(complementOf(leaf));
+  LeafWords result;
+  for (std::size_t x = 0; x < leaf.size(); ++x) result[x] = leaf[x] & ~lost[x];
   return result;
 }
 
@@ -77,10 +38,12 @@ std::uint64_t sideOf(const LeafWords& leaf, int side) {
 }
 
 void appendInactiveRegions(const LeafWords& active, std::vector<LeafWords>& regions) {
-  LeafWords inactive{};
-  for (std::size_t x = 0; x < inactive.size(); ++x) inactive[x] = ~active[x];
+  LeafWords inactive = complementOf(active);
   while (!isEmpty(inactive)) {
-    regions.push_back(floodedFrom(lowestVoxel(inactive), inactive));
+    const int voxel = lowestVoxel(inactive);
+    LeafWords seed{};
+    seed[static_cast<std::size_t>(voxel / 64)] = std::uint64_t{1} << (voxel % 64);
+    regions.push_back(flooded(seed, inactive));
     for (std::size_t x = 0; x < inactive.size(); ++x) inactive[x] &= ~regions.back()[x];
   }
 }

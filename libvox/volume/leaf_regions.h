@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/grid/merge_leaf.h"
+#include "libvox/grid/leaf_words.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,8 @@
-// Flood within a leaf, many voxels at a time.
+// Sets of voxels of a leaf, many voxels at a time.
 
-#include "libvox/foot/leaf_flood.h"
+#include "libvox/grid/leaf_words.h"
 
+#include <bit>
 #include <cstddef>
 
 namespace vox {
@@ -34,8 +35,14 @@ std::uint64_t spreadInPlane(std::uint64_t f, std::uint64_t open) {
 
 }  // namespace
 
-LeafBits neighboursOf(const LeafBits& voxels) {
-  LeafBits near;
+int lowestVoxel(const LeafWords& voxels) {
+  std::size_t x = 0;
+  while (voxels[x] == 0) ++x;
+  return 64 * static_cast<int>(x) + std::countr_zero(voxels[x]);
+}
+
+LeafWords neighboursOf(const LeafWords& voxels) {
+  LeafWords near;
   for (std::size_t x = 0; x < 8; ++x) {
     const std::uint64_t v = voxels[x];
     near[x] = (v << 1 & kNotFirstZ) | (v >> 1 & kNotLastZ) | v << 8 | v >> 8;
@@ -45,10 +52,10 @@ LeafBits neighboursOf(const LeafBits& voxels) {
   return near;
 }
 
-LeafBits flooded(const LeafBits& seeds, const LeafBits& open) {
-  LeafBits f;
+LeafWords flooded(const LeafWords& seeds, const LeafWords& open) {
+  LeafWords f;
   for (std::size_t x = 0; x < 8; ++x) f[x] = seeds[x] & open[x];
-  for (LeafBits before = {}; before != f;) {
+  for (LeafWords before = {}; before != f;) {
     before = f;
     for (std::size_t x = 0; x < 8; ++x)
       f[x] = spreadInPlane(x > 0 ? f[x] | (f[x - 1] & open[x]) : f[x], open[x]);
