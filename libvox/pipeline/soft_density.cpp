@@ -279,13 +279,13 @@ class SoftDensity {
   void addCells(const PreparedSurface& surface, const std::vector<Index>& faces, bool onlyExposed,
                 double part, FootCells& cells) const {
     if (levelOf(surface.way))
-      return cells.addTriangles(trianglesOfLevel(surface, faces, budget_, progress_), 0, progress_);
+      return cells.addTriangles(trianglesOfLevel(surface, faces, budget_, progress_), progress_);
     PieceFilter filter;
     if (onlyExposed)
       filter = [this](LimitSink& next) {
         return std::make_unique<ExposedPieces>(*solid_, kDepthOfExposed, next);
       };
-    cells.addLimitSurface(surface, faces, {}, filter, progress_, part);
+    cells.addLimitSurface(surface, faces, filter, progress_, part);
   }
 
   void switchOffEmpty() {
