@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace vox {
 namespace {
@@ -25,7 +26,7 @@ struct CellWalk {
   LimitWalk walk;
   CellMaker maker;
   std::unique_ptr<LimitSink> filter, joined;
-  std::vector<Index> faces;
+  std::vector<Index> faces, lastFaces;  // the walk still needs those of the last call
 
   /// @param whole  may be null
   CellWalk(const SubdivisionLevel& base, const CellOptions& options, std::uint32_t firstOwner,
@@ -42,10 +43,14 @@ struct CellWalk {
     LimitSink& sink = joined ? *joined : filtered();
     if (among.empty() || among.size() == walk.base().mesh.faceCount())
       return walk.emit(submesh, sink);
+    std::swap(faces, lastFaces);
     faces.clear();
     for (const Index f : submesh)
       if (std::binary_search(among.begin(), among.end(), f)) faces.push_back(f);
-    if (!faces.empty()) walk.emit(faces, sink);
+    if (faces.empty())
+      std::swap(faces, lastFaces);
+    else
+      walk.emit(faces, sink);
   }
 };
 
