@@ -4,11 +4,12 @@
 
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
-#include "libvox/foot/scan_cell.h"
-#include "libvox/grid/enclosed.h"
+#include "libvox/foot/scan_bin.h"
 #include "libvox/grid/leaf_words.h"
 #include "libvox/grid/openvdb.h"
 
+#include <openvdb/tools/ChangeBackground.h>
+#include <openvdb/tools/Prune.h>
 #include <openvdb/tools/SignedFloodFill.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/spin_mutex.h>
@@ -64,20 +65,11 @@ LeafWords withInactive(const LeafWords& active, const LeafWords& negative) {
   return inside;
 }
 
-/// The active voxels of a leaf of a mask.
-LeafWords bitsOf(const openvdb::MaskTree& mask, const openvdb::Coord& origin) {
-  if (const auto* leaf = mask.probeConstLeaf(origin)) return activeWords(*leaf);
-  LeafWords bits;
-  bits.fill(mask.isValueOn(origin) ? ~std::uint64_t{0} : 0);
-  return bits;
-}
-
 class BandMaker {
  public:
-  BandMaker(const FootBins& bins, const BandOptions& options, const Inside& inside)
+  BandMaker(const FootBins& bins, const BandOptions& options)
       : bins_(bins),
         options_(options),
-        inside_(inside),
         voxelSize_(static_cast<float>(options.voxelSize)),
         background_(backgroundOf(options.out, options.voxelSize)),
         insideBackground_(backgroundOf(options.in, options.voxelSize)),
@@ -106,11 +98,14 @@ class BandMaker {
     parallelForEach(bins_.count(), 1, [&](std::size_t bin) {
       progress.check();
       Work& work = *works.local();
-      scanBin(bin, work);
+      work.brick.clear();
+      scanCells(bins_, bins_.cellsOf(bin), options_.unsignedDistance, nullptr, work.feet,
+                work.brick);
       finishBin(bin, work);
       progress.done(part);
     });
-    for (const auto& work : works) jumps_ += work->jumps;
+    for (const auto& work : works)
+      jumps_.insert(jumps_.end(), work->jumps.begin(), work->jumps.end());
   }
 
   Band take() {
@@ -133,50 +128,11 @@ class BandMaker {
  private:
   /// Of one thread.
   struct Work {
-    FootBrick brick, ofGroup;
+    FootBrick brick;
     Feet feet;
     std::vector<Leaf*> leaves;
-    std::uint64_t jumps = 0;
+    std::vector<openvdb::Coord> jumps;
   };
-
-  /// Scans the cells of a bin, group by group.
-  void scanBin(std::size_t bin, Work& work) const {
-    work.brick.clear();
-    const auto cells = bins_.cellsOf(bin);
-    for (auto begin = cells.begin(); begin != cells.end();) {
-      const auto end = std::find_if(
-          begin, cells.end(), [&](const BinnedCell& cell) { return cell.group != begin->group; });
-      const bool isFirst = begin == cells.begin();
-      FootBrick& brick = isFirst ? work.brick : work.ofGroup;
-      if (!isFirst) brick.clear();
-      for (; begin != end; ++begin) scanCell(*begin, bins_.originOf(bin), work.feet, brick);
-      if (!isFirst) work.brick.unite(brick);
-    }
-  }
-
-  void scanCell(const BinnedCell& cell, const openvdb::Coord& origin, Feet& feet,
-                FootBrick& brick) const {
-    const auto keep = [&](const Feet& found) { keepLeast(found, brick); };
-    switch (cell.kind) {
-      case CellKind::kNewton:
-        return scanFeet(bins_.newton(cell), origin, nullptr, feet, keep);
-      case CellKind::kPolynomial:
-        return scanPolynomials(bins_.polynomial(cell), origin, options_.unsignedDistance, brick);
-      case CellKind::kTriangle:
-      case CellKind::kRibbon:
-        return scanFeet(bins_.triangle(cell), origin, nullptr, feet, keep);
-    }
-  }
-
-  void keepLeast(const Feet& feet, FootBrick& brick) const {
-    for (std::size_t i = 0; i < feet.count; ++i) {
-      const auto x = static_cast<unsigned>(feet.x[i]), y = static_cast<unsigned>(feet.y[i]),
-                 z = static_cast<unsigned>(feet.z[i]);
-      std::uint32_t& least = brick.leaf(leafOf(x, y, z))[voxelInLeaf(x, y, z)];
-      const float t = feet.t[i];
-      least = std::min(least, keyOf(options_.unsignedDistance ? std::abs(t) : t));
-    }
-  }
 
   void finishBin(std::size_t bin, Work& work) {
     work.leaves.clear();
@@ -195,8 +151,7 @@ class BandMaker {
 
   /// The leaf of some keys; null if no voxel is active.
   Leaf* makeLeaf(const std::uint32_t* keys, const openvdb::Coord& origin, Work& work) const {
-    const LeafSigns signs =
-        inside_.solid == nullptr ? signsByFeet(keys, work) : signsByVoxels(keys, origin);
+    const LeafSigns signs = signsOf(keys, origin, work);
     if (!signs.anyActive()) return nullptr;
     auto* leaf = new Leaf(openvdb::PartialCreate(), origin, background_, false);
     leaf->allocate();
@@ -217,7 +172,7 @@ class BandMaker {
     return leaf;
   }
 
-  LeafSigns signsByFeet(const std::uint32_t* keys, Work& work) const {
+  LeafSigns signsOf(const std::uint32_t* keys, const openvdb::Coord& origin, Work& work) const {
     LeafSigns signs = {};
     LeafWords negative = {};
     for (unsigned x = 0; x < 8; ++x)
@@ -229,72 +184,69 @@ class BandMaker {
         negative[x] |= (active & minus) << bit;
       }
     if (options_.unsignedDistance) return signs;
-    work.jumps += jumpsOf(keys, signs.active, negative);
+    if (hasJump(keys, signs.active, negative)) work.jumps.push_back(origin);
     signs.inside = withInactive(signs.active, negative);
     return signs;
   }
 
-  LeafSigns signsByVoxels(const std::uint32_t* keys, const openvdb::Coord& origin) const {
-    constexpr float kNear = 1;  // a surface that crosses the voxel is nearer than this
-    const std::uint32_t nearest = keyOf(kNear);
-    const LeafWords surface = bitsOf(*inside_.surface, origin);
-    LeafSigns signs = {};
-    signs.inside = bitsOf(*inside_.solid, origin);
-    const openvdb::tree::ValueAccessor<const openvdb::MaskTree> solid(*inside_.solid);
-    for (unsigned x = 0; x < 8; ++x)
-      for (unsigned bit = 0; bit < 64; ++bit) {
-        const std::uint32_t key = keys[x << 6 | bit];
-        const std::uint64_t one = std::uint64_t{1} << bit;
-        const bool maybeOutside = (surface[x] & one) != 0 && key < nearest && (key & 1U) == 0;
-        if (maybeOutside &&
-            !isEnclosed(solid, origin.offsetBy(static_cast<int>(x), static_cast<int>(bit >> 3),
-                                               static_cast<int>(bit & 7U))))
-          signs.inside[x] &= ~one;
-        if (key < ((signs.inside[x] & one) != 0 ? mostIn_ : mostOut_)) signs.active[x] |= one;
-      }
-    return signs;
-  }
-
-  /// Number of neighbouring voxels in the leaf that no surface separates as their distances say.
-  static std::uint64_t jumpsOf(const std::uint32_t* keys, const LeafWords& active,
-                               const LeafWords& negative) {
+  /// Whether neighbouring voxels in the leaf are not separated by a surface as their distances say.
+  static bool hasJump(const std::uint32_t* keys, const LeafWords& active, const LeafWords& negative) {
     constexpr float kMost = 1.02F;
     constexpr std::uint64_t kNotLastZ = 0x7F7F7F7F7F7F7F7F;
-    std::uint64_t jumps = 0;
-    const auto count = [&](unsigned x, std::uint64_t pairs, unsigned step) {
+    const auto any = [&](unsigned x, std::uint64_t pairs, unsigned step) {
       for (; pairs != 0; pairs &= pairs - 1) {
         const unsigned at = x << 6 | static_cast<unsigned>(std::countr_zero(pairs));
-        const float sum = std::abs(distanceOf(keys[at])) + std::abs(distanceOf(keys[at + step]));
-        if (sum > kMost) ++jumps;
+        if (std::abs(distanceOf(keys[at])) + std::abs(distanceOf(keys[at + step])) > kMost)
+          return true;
       }
+      return false;
     };
     for (unsigned x = 0; x < 8; ++x) {
       const std::uint64_t a = active[x], n = negative[x];
-      count(x, (n ^ n >> 1) & a & a >> 1 & kNotLastZ, 1);
-      count(x, (n ^ n >> 8) & a & a >> 8 & ~(std::uint64_t{0xFF} << 56), 8);
-      if (x < 7) count(x, (n ^ negative[x + 1]) & a & active[x + 1], 64);
+      if (any(x, (n ^ n >> 1) & a & a >> 1 & kNotLastZ, 1) ||
+          any(x, (n ^ n >> 8) & a & a >> 8 & ~(std::uint64_t{0xFF} << 56), 8) ||
+          (x < 7 && any(x, (n ^ negative[x + 1]) & a & active[x + 1], 64)))
+        return true;
     }
-    return jumps;
+    return false;
   }
 
   const FootBins& bins_;
   BandOptions options_;
-  Inside inside_;
   float voxelSize_;
   float background_, insideBackground_;
   std::uint32_t mostOut_, mostIn_;  // keys of active voxels are smaller
   std::deque<Page> pages_;
   std::vector<Page*> pageOf_;  // of each bin
-  std::uint64_t jumps_ = 0;
+  std::vector<openvdb::Coord> jumps_;
 };
 
 }  // namespace
 
-Band makeBand(const FootBins& bins, const BandOptions& options, const Inside& inside,
-              Progress& progress, double part) {
-  BandMaker maker(bins, options, inside);
+Band makeBand(const FootBins& bins, const BandOptions& options, Progress& progress, double part) {
+  BandMaker maker(bins, options);
   maker.run(progress, part);
   return maker.take();
+}
+
+void trim(openvdb::FloatTree& band, const BandOptions& options) {
+  const float out = backgroundOf(options.out, options.voxelSize);
+  const float in = backgroundOf(options.in, options.voxelSize);
+  std::vector<Leaf*> leaves;
+  band.getNodes(leaves);
+  constexpr std::size_t kLeavesPerTask = 64;
+  parallelForEach(leaves.size(), kLeavesPerTask, [&](std::size_t l) {
+    float* values = leaves[l]->buffer().data();
+    auto mask = leaves[l]->getValueMask();
+    for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
+      if (values[i] > -in && values[i] < out) continue;
+      values[i] = values[i] < 0 ? -in : out;
+      mask.setOff(i);
+    }
+    leaves[l]->setValueMask(mask);
+  });
+  openvdb::tools::changeAsymmetricLevelSetBackground(band, out, -in);
+  openvdb::tools::pruneLevelSet(band, out, -in);
 }
 
 float backgroundOf(double width, double voxelSize) {

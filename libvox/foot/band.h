@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <vector>
 
 namespace vox {
 
@@ -20,31 +21,25 @@ struct BandOptions {
   double halfThickness = 0;  ///< voxels, taken from all distances: of a sheet
 };
 
-/// Voxels that decide what is inside where the nearest surface alone does not: where surfaces
-/// overlap, or have small holes.
-struct Inside {
-  const openvdb::MaskTree* surface = nullptr;  ///< voxels that a surface crosses
-  const openvdb::MaskTree* solid = nullptr;    ///< these, and what they enclose
-};
-
 /// A narrow band of distances.
 struct Band {
   std::shared_ptr<openvdb::FloatTree> tree;
-  /// Pairs of neighbouring voxels with distances that no closed surface without self-intersections
-  /// has: of opposite signs, and together larger than the step from one to the other.
-  std::uint64_t jumps = 0;
+  /// Leaves with neighbouring voxels whose distances no closed surface without self-intersections
+  /// has: of opposite signs, and together larger than the step from one to the other. Any order.
+  std::vector<openvdb::Coord> jumps;
 };
 
 /// Distances to the nearest of some cells, in world units. Voxels whose distance is smaller than
 /// the band are active; the background is the band, inside the surface negative.
-/// @param bins    cells with a reach of at least the band and the thickness
-/// @param inside  if set, a voxel is inside if it is solid; a voxel that a surface crosses: if it
-///   lies on the inner side of its foot, or has none near
-/// @param part    the share of this in the current stage of `progress`
+/// @param bins  cells with a reach of at least the band and the thickness
+/// @param part  the share of this in the current stage of `progress`
 /// Parallel; the same bits for any number of threads.
 /// @throws Cancelled
-Band makeBand(const FootBins& bins, const BandOptions& options, const Inside& inside,
-              Progress& progress, double part);
+Band makeBand(const FootBins& bins, const BandOptions& options, Progress& progress, double part);
+
+/// Takes distances beyond smaller widths out of a band.
+/// @param options  of the band that is left
+void trim(openvdb::FloatTree& band, const BandOptions& options);
 
 /// The value of inactive voxels, without the sign: the smallest float that is not below the width.
 /// @param width  voxels

@@ -67,8 +67,7 @@ enum class CellKind : std::uint8_t {
 /// A cell in a bin: a cube of 32^3 voxels, aligned, which one task scans.
 struct BinnedCell {
   openvdb::Coord bin;   ///< lowest voxel / 32
-  std::uint32_t group;  ///< surfaces of which each has an inside of its own
-  std::uint32_t owner;  ///< orders the cells of a group; all cells of an owner are in one store
+  std::uint32_t owner;  ///< orders the cells; all cells of an owner are in one store
   std::uint32_t cell;   ///< index in its store, among the cells of its kind
   std::uint16_t store;
   CellKind kind;
@@ -90,8 +89,7 @@ struct CellStore {
   }
 
   /// Enters a cell in all bins of interest that its box meets.
-  void bin(const Prism& prism, std::uint32_t group, std::uint32_t owner, std::size_t cell,
-           CellKind kind);
+  void bin(const Prism& prism, std::uint32_t owner, std::size_t cell, CellKind kind);
 };
 
 }  // namespace vox

@@ -163,7 +163,7 @@ struct CellMaker::Shape {
 void CellMaker::piece(const LimitPiece& piece) {
   piece_ = &piece;
   if (piece.boundarySides != kAllSides && ribbon_.set(piece))
-    return addRibbon(ribbon_, piece, options_.reach, group(), owner(), store_);
+    return addRibbon(ribbon_, piece, options_.reach, owner(), store_);
   const auto parts = [&](bool alongU) {
     return std::max(1,
                     static_cast<int>(std::ceil(longestStep(piece, alongU) / kLongestFlat - 1e-6F)));
@@ -288,7 +288,7 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   cell.v = static_cast<float>(square.v + square.sideV * (part.v0 + part.v1) / 2);
   cell.side = {static_cast<float>(square.sideU * (part.u1 - part.u0) / 2),
                static_cast<float>(square.sideV * (part.v1 - part.v0) / 2)};
-  store_.bin(prism, group(), owner(), store_.newton.size() - 1, CellKind::kNewton);
+  store_.bin(prism, owner(), store_.newton.size() - 1, CellKind::kNewton);
 }
 
 /// Returns false if polynomials are not precise enough.
@@ -301,7 +301,7 @@ bool CellMaker::addPolynomialCell(const Shape& shape) {
     store_.polynomial.pop_back();
     return false;
   }
-  store_.bin(prism, group(), owner(), store_.polynomial.size() - 1, CellKind::kPolynomial);
+  store_.bin(prism, owner(), store_.polynomial.size() - 1, CellKind::kPolynomial);
   return true;
 }
 

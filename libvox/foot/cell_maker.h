@@ -4,7 +4,6 @@
 #include "libvox/foot/ribbon.h"
 
 #include <cstdint>
-#include <span>
 
 namespace vox {
 
@@ -13,6 +12,7 @@ struct CellOptions {
   bool polynomials = true;   ///< make polynomial cells where they are precise enough
   double tolerance = 0.003;  ///< of the pieces around extraordinary faces (limit_walk.h), voxels
   float newtonStop = 0.15F;  ///< a shorter step of Newton's method is the last one, voxels
+  bool places = true;        ///< cells need their places; without them there are fewer cells
 };
 
 /// Cuts pieces of the limit surface into cells. One object per thread.
@@ -20,10 +20,8 @@ struct CellOptions {
 class CellMaker : public LimitSink {
  public:
   /// @param firstOwner  added to the numbers of corners, so that several surfaces differ
-  /// @param groups      of the corners; may be empty: all 0. It must stay valid.
-  CellMaker(const CellOptions& options, std::uint32_t firstOwner,
-            std::span<const std::uint32_t> groups, CellStore& store)
-      : options_(options), firstOwner_(firstOwner), groups_(groups), store_(store) {}
+  CellMaker(const CellOptions& options, std::uint32_t firstOwner, CellStore& store)
+      : options_(options), firstOwner_(firstOwner), store_(store) {}
 
   void piece(const LimitPiece& piece) override;
 
@@ -37,11 +35,8 @@ class CellMaker : public LimitSink {
   bool addPolynomialCell(const Shape& shape);
   std::uint32_t owner() const { return firstOwner_ + piece_->square.corner; }
 
-  std::uint32_t group() const { return groups_.empty() ? 0 : groups_[piece_->square.corner]; }
-
   CellOptions options_;
   std::uint32_t firstOwner_;
-  std::span<const std::uint32_t> groups_;
   CellStore& store_;
   const LimitPiece* piece_ = nullptr;
   Ribbon ribbon_;

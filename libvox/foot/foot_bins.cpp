@@ -16,16 +16,15 @@ constexpr int kPageLog2 = 2;  // bins along a page
 auto orderOf(const BinnedCell& cell) {
   const openvdb::Coord page = cell.bin >> kPageLog2;
   return std::make_tuple(page.x(), page.y(), page.z(), cell.bin.x(), cell.bin.y(), cell.bin.z(),
-                         cell.group, cell.owner, cell.kind, cell.cell);
+                         cell.owner, cell.kind, cell.cell);
 }
 
 }  // namespace
 
-void CellStore::bin(const Prism& prism, std::uint32_t group, std::uint32_t owner, std::size_t cell,
-                    CellKind kind) {
+void CellStore::bin(const Prism& prism, std::uint32_t owner, std::size_t cell, CellKind kind) {
   const openvdb::CoordBBox bins(prism.box.min() >> kBinLog2, prism.box.max() >> kBinLog2);
   const auto enter = [&](const openvdb::Coord& at) {
-    binned.push_back({at, group, owner, static_cast<std::uint32_t>(cell), number, kind});
+    binned.push_back({at, owner, static_cast<std::uint32_t>(cell), number, kind});
   };
   if (onlyBins == nullptr) {
     for (auto at = bins.begin(); at; ++at) enter(*at);

@@ -37,20 +37,6 @@ class FootBrick {
     return keys_[number].data();
   }
 
-  /// Takes over the keys of a surface with an inside of its own: of two distances the smaller one,
-  /// with its sign, so that the insides are united.
-  void unite(const FootBrick& other) {
-    for (std::uint64_t left = other.touched_; left != 0; left &= left - 1) {
-      const auto number = static_cast<unsigned>(std::countr_zero(left));
-      std::uint32_t* const keys = leaf(number);
-      for (std::size_t i = 0; i < kVoxels; ++i) {
-        const std::uint32_t key = other.keys_[number][i];
-        if (key == kNoKey) continue;
-        if (keys[i] == kNoKey || distanceOf(key) < distanceOf(keys[i])) keys[i] = key;
-      }
-    }
-  }
-
   static openvdb::Coord leafOrigin(const openvdb::Coord& bin, unsigned number) {
     const auto at = [](unsigned place) { return static_cast<int>(place & 3U) * 8; };
     return bin.offsetBy(at(number >> 4), at(number >> 2), at(number));

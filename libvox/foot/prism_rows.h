@@ -40,20 +40,25 @@ class PrismRows {
   /// no voxel. Rows outside low and high are empty.
   void rowsAt(int x, int firstY, Group& first, Group& last) const {
     const auto fx = static_cast<float>(x);
-    for (int r = 0; r < kGroup; ++r) {
-      const int y = firstY + r;
-      const auto fy = static_cast<float>(y);
-      float from = static_cast<float>(low[2]);
-      float to = static_cast<float>(high[2]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const float at = middle_[k] + perX_[k] * fx + perY_[k] * fy;
-        from = std::max(from, at - reach_[k]);
-        to = std::min(to, at + reach_[k]);
+    Group from, to;
+    from.fill(static_cast<float>(low[2]));
+    to.fill(static_cast<float>(high[2]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float atRow = middle_[k] + perX_[k] * fx;
+      for (std::size_t r = 0; r < kGroup; ++r) {
+        const float at = atRow + perY_[k] * static_cast<float>(firstY + static_cast<int>(r));
+        from[r] = std::max(from[r], at - reach_[k]);
+        to[r] = std::min(to[r], at + reach_[k]);
       }
-      const bool inside = y >= low[1] && y <= high[1] && from <= to;
-      const auto row = static_cast<std::size_t>(r);
-      first[row] = inside ? std::ceil(from) : 1.0F;
-      last[row] = inside ? std::floor(to) : 0.0F;
+    }
+    // Whole numbers by conversion: from and, in rows with voxels, to are not negative.
+    for (std::size_t r = 0; r < kGroup; ++r) {
+      const int y = firstY + static_cast<int>(r);
+      const bool inside = (y >= low[1]) & (y <= high[1]) & (from[r] <= to[r]);
+      const float down = static_cast<float>(static_cast<int>(inside ? from[r] : 0.0F));
+      const float up = down < from[r] ? down + 1 : down;
+      first[r] = inside ? up : 1.0F;
+      last[r] = static_cast<float>(static_cast<int>(inside ? to[r] : 0.0F));
     }
   }
 

@@ -92,7 +92,10 @@ bool mayBeNarrow(const LimitPiece& piece) {
   const Vec3d u = (p[2][1] - p[0][1]) / 2.0;
   const Vec3d v = (p[1][2] - p[1][0]) / 2.0;
   const double longest = std::max(u.norm(), v.norm());
-  return u.cross(v).norm() <= 2 * kMostWidth * longest && longest > 2 * kMostWidth;
+  const double area = u.cross(v).norm();
+  const double longestPath = 2 * longest;
+  return area <= 2 * kMostWidth * longest && longest > 2 * kMostWidth &&
+         area <= 2 * longestPath / kLeastSlenderness * longest;
 }
 
 /// Points without a normal take the one of the nearest point that has one.
@@ -143,8 +146,8 @@ bool Ribbon::set(const LimitPiece& piece) {
   return false;
 }
 
-void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, std::uint32_t group,
-               std::uint32_t owner, CellStore& store) {
+void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, std::uint32_t owner,
+               CellStore& store) {
   const auto add = [&](const RibbonPoint& a, const RibbonPoint& b, const RibbonPoint& c) {
     const std::array<const RibbonPoint*, 3> corners = {&a, &b, &c};
     const openvdb::Coord origin = openvdb::Coord::round(openvdb::Vec3d(a.point.data()));
@@ -175,7 +178,7 @@ void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, std::
       cell.places[i] = {static_cast<float>(square.u + square.sideU * corners[i]->u),
                         static_cast<float>(square.v + square.sideV * corners[i]->v)};
     }
-    store.bin(prism, group, owner, store.triangles.size() - 1, CellKind::kRibbon);
+    store.bin(prism, owner, store.triangles.size() - 1, CellKind::kRibbon);
   };
   const std::size_t last = ribbon.right.size() - 1;
   // The first and the last point are on both sides.

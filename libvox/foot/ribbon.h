@@ -25,7 +25,7 @@ struct Ribbon {
 
 /// Adds the triangles of a ribbon to a store, as cells of the kind kRibbon.
 /// @param reach  largest distance of interest, voxels
-void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, std::uint32_t group,
-               std::uint32_t owner, CellStore& store);
+void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, std::uint32_t owner,
+               CellStore& store);
 
 }  // namespace vox

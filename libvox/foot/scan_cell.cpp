@@ -186,7 +186,7 @@ HWY_INLINE void setRows(const std::array<Slice, 3>& slices, float firstY, RowTer
 }
 
 void scan(const PolynomialCell& cell, const openvdb::Coord& binOrigin, std::uint32_t signMask,
-          FootBrick& brick) {
+          const VoxelFloors* floors, FootBrick& brick) {
   const D d;
   const hn::RebindToUnsigned<D> du;
   const PrismRows rows(cell.prism, binOrigin);
@@ -209,12 +209,12 @@ void scan(const PolynomialCell& cell, const openvdb::Coord& binOrigin, std::uint
       for (int z8 = z8First; z8 <= z8Last; ++z8) {
         const auto z0 = static_cast<float>(8 * z8);
         std::uint32_t* leaf = nullptr;
+        const auto number = static_cast<unsigned>((x >> 3) << 4 | y8 << 2 | z8);
         for (std::size_t r = 0; r < PrismRows::kGroup; ++r) {
           if (first[r] > z0 + 7 || last[r] < z0 || first[r] > last[r]) continue;
           if (!set8) setRows(slices, static_cast<float>(8 * y8) - rows.centre[1], terms);
           set8 = true;
-          if (leaf == nullptr)
-            leaf = brick.leaf(static_cast<unsigned>((x >> 3) << 4 | y8 << 2 | z8)) + ((x & 7) << 6);
+          if (leaf == nullptr) leaf = brick.leaf(number) + ((x & 7) << 6);
           for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
             const V zBin = hn::Iota(d, z0 + static_cast<float>(i));
             const V z = hn::Sub(zBin, set(rows.centre[2]));
@@ -229,7 +229,11 @@ void scan(const PolynomialCell& cell, const openvdb::Coord& binOrigin, std::uint
                 hn::And(hn::Le(hn::Abs(cubic(1)), limitA), hn::Le(hn::Abs(cubic(2)), limitB));
             const auto bits = hn::And(hn::BitCast(du, cubic(0)), keptBits);
             const auto key = hn::Or(hn::ShiftLeft<1>(bits), hn::ShiftRight<31>(bits));
-            const auto accepted = hn::RebindMask(du, hn::And(inRow, inCell));
+            auto accepted = hn::RebindMask(du, hn::And(inRow, inCell));
+            if (floors != nullptr) {
+              const std::uint32_t* floor = (*floors)[number].data() + ((x & 7) << 6) + 8 * r + i;
+              accepted = hn::And(accepted, hn::Eq(key, hn::Max(key, hn::LoadU(du, floor))));
+            }
             std::uint32_t* at = leaf + 8 * r + i;
             const auto old = hn::Load(du, at);
             hn::Store(hn::IfThenElse(accepted, hn::Min(key, old), old), du, at);
@@ -278,9 +282,9 @@ void solveFeet(const TriangleCell& cell, const openvdb::Coord& binOrigin, Feet& 
 }
 
 void scanPolynomials(const PolynomialCell& cell, const openvdb::Coord& binOrigin,
-                     bool unsignedDistance, FootBrick& brick) {
+                     bool unsignedDistance, const VoxelFloors* floors, FootBrick& brick) {
   constexpr std::uint32_t kNoSign = 0x7FFFFFFF;
-  HWY_DYNAMIC_DISPATCH(scan)(cell, binOrigin, unsignedDistance ? kNoSign : ~0U, brick);
+  HWY_DYNAMIC_DISPATCH(scan)(cell, binOrigin, unsignedDistance ? kNoSign : ~0U, floors, brick);
 }
 
 }  // namespace vox

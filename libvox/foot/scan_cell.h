@@ -28,10 +28,14 @@ void solveFeet(const NewtonCell& cell, const openvdb::Coord& binOrigin, Feet& fe
 /// The same for a triangle: a, b are the weights of its second and third point.
 void solveFeet(const TriangleCell& cell, const openvdb::Coord& binOrigin, Feet& feet);
 
+/// A key for each voxel of a bin, in the order of FootBrick.
+using VoxelFloors = std::array<std::array<std::uint32_t, FootBrick::kVoxels>, FootBrick::kLeaves>;
+
 /// Evaluates the polynomials of a cell at the voxels of a bin; keeps the least keys.
 /// @param unsignedDistance  whether distances have no sign
+/// @param floors            if not null, smaller keys do not count
 void scanPolynomials(const PolynomialCell& cell, const openvdb::Coord& binOrigin,
-                     bool unsignedDistance, FootBrick& brick);
+                     bool unsignedDistance, const VoxelFloors* floors, FootBrick& brick);
 
 /// Bits of the voxels of each leaf of a bin: bit y << 3 | z of word x.
 using BinMask = std::array<std::array<std::uint64_t, 8>, FootBrick::kLeaves>;

@@ -71,14 +71,12 @@ TriangleMaker::TriangleMaker(const PolygonMesh& mesh, float reach)
     }
 }
 
-void TriangleMaker::add(Index begin, Index end, std::uint32_t firstOwner, std::uint32_t group,
-                        CellStore& store) const {
+void TriangleMaker::add(Index begin, Index end, std::uint32_t firstOwner, CellStore& store) const {
   for (Index f = begin; f != end; ++f)
-    if (!normals_[f].isZero(0)) addTriangle(f, firstOwner + f, group, store);
+    if (!normals_[f].isZero(0)) addTriangle(f, firstOwner + f, store);
 }
 
-void TriangleMaker::addTriangle(Index f, std::uint32_t owner, std::uint32_t group,
-                                CellStore& store) const {
+void TriangleMaker::addTriangle(Index f, std::uint32_t owner, CellStore& store) const {
   const auto face = mesh_.face(f);
   const auto& points = mesh_.points;
   const openvdb::Coord at = openvdb::Coord::round(openvdb::Vec3d(points[face[0]].data()));
@@ -107,7 +105,7 @@ void TriangleMaker::addTriangle(Index f, std::uint32_t owner, std::uint32_t grou
     cell.edgeNormals[i] = asFloats(edgeNormals_[mesh_.faceOffsets[f] + static_cast<Index>(i)]);
     cell.vertexNormals[i] = asFloats(vertexNormals_[face[i]]);
   }
-  store.bin(prism, group, owner, store.triangles.size() - 1, CellKind::kTriangle);
+  store.bin(prism, owner, store.triangles.size() - 1, CellKind::kTriangle);
 }
 
 }  // namespace vox

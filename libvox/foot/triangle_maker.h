@@ -18,12 +18,10 @@ class TriangleMaker {
 
   /// Adds the cells of the triangles begin .. end - 1 to a store.
   /// @param firstOwner  added to the numbers of triangles
-  void add(Index begin, Index end, std::uint32_t firstOwner, std::uint32_t group,
-           CellStore& store) const;
+  void add(Index begin, Index end, std::uint32_t firstOwner, CellStore& store) const;
 
  private:
-  void addTriangle(Index triangle, std::uint32_t owner, std::uint32_t group,
-                   CellStore& store) const;
+  void addTriangle(Index triangle, std::uint32_t owner, CellStore& store) const;
 
   const PolygonMesh& mesh_;
   float reach_;

@@ -5,6 +5,7 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/foot/band.h"
+#include "libvox/foot/exposed_band.h"
 #include "libvox/foot/wide_band.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
@@ -30,8 +31,7 @@ namespace {
 struct Part {
   std::size_t surface;
   const MeshComponent* component;
-  Box box;                  // of its control points, which hold the surface; index space
-  std::uint32_t group = 0;  // parts of a group have their inside in common
+  Box box;  // of its control points, which hold the surface; index space
 
   bool isClosed() const { return component->side != MeshComponent::Side::kNoInside; }
 };
@@ -48,31 +48,6 @@ bool mayMeet(const std::vector<Part>& parts) {
 
 bool facesInward(const Part& part) {
   return part.component->side == MeshComponent::Side::kIn;
-}
-
-/// Makes each part a group of its own; but cavities join the smallest part around them.
-void setGroups(std::vector<Part>& parts) {
-  for (std::size_t i = 0; i < parts.size(); ++i) parts[i].group = static_cast<std::uint32_t>(i);
-  const auto sizeOf = [](const Part& part) { return (part.box.high - part.box.low).prod(); };
-  for (Part& cavity : parts) {
-    if (!facesInward(cavity)) continue;
-    const Part* around = nullptr;
-    for (const Part& part : parts)
-      if (!facesInward(part) && (part.box.low.array() <= cavity.box.low.array()).all() &&
-          (part.box.high.array() >= cavity.box.high.array()).all() &&
-          (around == nullptr || sizeOf(part) < sizeOf(*around)))
-        around = &part;
-    if (around != nullptr) cavity.group = around->group;
-  }
-}
-
-/// The group of each corner of some parts of a surface.
-std::vector<std::uint32_t> groupsOfCorners(const PolygonMesh& mesh, std::span<const Part> parts) {
-  std::vector<std::uint32_t> groups(mesh.cornerCount(), 0);
-  for (const Part& part : parts)
-    for (const Index f : part.component->faces)
-      std::fill_n(groups.begin() + mesh.faceOffsets[f], mesh.faceSize(f), part.group);
-  return groups;
 }
 
 /// The faces of some parts of a surface, ascending.
@@ -145,11 +120,9 @@ class LevelSetMaker {
   /// Half width up to which all cells scan their tubes. Beyond it tubes spread too much.
   static constexpr double kMostExact = 8;  // voxels
 
-  /// How far inside others a surface still counts: the voxels tell less well where surfaces are
-  /// near each other; then the united distances of the parts are right. A part that overlaps itself
-  /// has no such distances.
-  static constexpr double kExposedDepth = 2.2;  // voxels
-  static constexpr double kFoldedDepth = 1.7;   // voxels
+  /// How far inside others a surface still counts where the band is wide: the voxels tell less well
+  /// where surfaces are near each other.
+  static constexpr double kExposedDepth = 1.7;  // voxels
 
   /// Open parts that enclose something become closed ones.
   void findEnclosing() {
@@ -175,18 +148,13 @@ class LevelSetMaker {
   }
 
   openvdb::FloatTree::Ptr bandOfSolids() {
-    setGroups(closed_);
-    constexpr double kFirst = 0.9;  // share of the stage
     const BandOptions options{settings_.band.in, settings_.band.out, voxelSize_};
-    const bool overlap =
-        mayMeet(closed_) || std::any_of(closed_.begin(), closed_.end(), facesInward);
-    if (!overlap && inside_.solid == nullptr) {
-      const Band band = bandOf(closed_, options, false, kFirst);
-      if (band.jumps == 0) return band.tree;
-    }
-    findInside();
-    const double share = overlap || !open_.empty() ? kFirst : 1 - kFirst;
-    return bandOf(closed_, options, true, share).tree;
+    const bool overlap = inside_.solid != nullptr || mayMeet(closed_) ||
+                         std::any_of(closed_.begin(), closed_.end(), facesInward);
+    const double share = open_.empty() ? 1 : 0.9;  // of the stage
+    if (!overlap)
+      if (const openvdb::FloatTree::Ptr band = bandByFeet(options, share)) return band;
+    return bandOfExposed(options, overlap ? share : 0);
   }
 
   openvdb::FloatTree::Ptr bandOfSheets() {
@@ -194,64 +162,107 @@ class LevelSetMaker {
     const double half = settings_.openMesh == OpenMesh::kUnsigned ? 0 : kHalfThickness;
     const double out = settings_.band.out;  // no voxel is deeper than half the thickness
     const BandOptions options{out, out, voxelSize_, true, half};
-    return bandOf(open_, options, false, closed_.empty() ? 1 : 0.1).tree;
+    const BandOptions narrow = narrowed(options);
+    const double share = closed_.empty() ? 1 : 0.1;
+    FootCells cells(cellOptions(narrow, isWide(options)), budget_);
+    addCells(open_, {}, kPartOfCells * share, cells);
+    const FootBins bins = cells.bins();
+    const Band band = makeBand(bins, narrow, progress_, (1 - kPartOfCells) * share);
+    if (isWide(options)) widen(*band.tree, kMostExact, bins, options, progress_);
+    return band.tree;
   }
 
-  /// @param byVoxels  whether voxels decide what is inside; else a band with jumps stays narrow
-  /// @param share     of the stage
-  Band bandOf(const std::vector<Part>& parts, const BandOptions& options, bool byVoxels,
-              double share) {
-    constexpr double kPartOfCells = 0.3;
+  /// The band of solids that do not meet. Null if its jumps show that a solid meets itself.
+  openvdb::FloatTree::Ptr bandByFeet(const BandOptions& options, double share) {
+    const BandOptions narrow = narrowed(options);
+    FootCells cells(cellOptions(narrow, isWide(options)), budget_);
+    addCells(closed_, {}, kPartOfCells * share, cells);
+    const FootBins bins = cells.bins();
+    const Band band = makeBand(bins, narrow, progress_, (1 - kPartOfCells) * share);
+    if (!band.jumps.empty()) {
+      if (narrow.in != narrow.out || narrow.in < kLeastToExpose || isWide(options)) return nullptr;
+      exposeParts(band, bins, narrow);
+      return band.tree;
+    }
+    if (isWide(options)) widen(*band.tree, kMostExact, bins, options, progress_);
+    return band.tree;
+  }
+
+  /// The band of solids parts of which may lie inside others.
+  openvdb::FloatTree::Ptr bandOfExposed(const BandOptions& options, double share) {
+    BandOptions even = narrowed(options);
+    even.in = even.out = std::max({even.in, even.out, kLeastToExpose});
+    FootCells cells(cellOptions(even, isWide(options)), budget_);
+    addCells(closed_, {}, kPartOfCells * share, cells);
+    const FootBins bins = cells.bins();
+    const Band band = makeBand(bins, even, progress_, (1 - kPartOfCells) * share);
+    const openvdb::MaskTree::Ptr solid = exposeParts(band, bins, even);
+    const BandOptions narrow = narrowed(options);
+    if (even.in != narrow.in || even.out != narrow.out) trim(*band.tree, narrow);
+    if (isWide(options)) widenExposed(*band.tree, *solid, options);
+    return band.tree;
+  }
+
+  /// Takes the distances to hidden parts out of a band.
+  /// @return voxels that are inside, or that a surface crosses
+  openvdb::MaskTree::Ptr exposeParts(const Band& band, const FootBins& bins,
+                                     const BandOptions& options) const {
+    if (solid_ != nullptr) {
+      constexpr double kNotCrossed = 1;  // voxels, from the surface
+      expose(band, bins, *solid_, kNotCrossed, options, progress_);
+      return solid_;
+    }
+    const openvdb::MaskTree::Ptr walls = wallsOf(*band.tree, voxelSize_);
+    budget_.require(bytesOfFilling(*walls), "the inside", kScatteredAdvice);
+    const openvdb::MaskTree::Ptr solid = solidOf(*walls, surfaces_, budget_, progress_);
+    expose(band, bins, *solid, kLeastOfFree, options, progress_);
+    return solid;
+  }
+
+  /// Continues a band beyond kMostExact.
+  void widenExposed(openvdb::FloatTree& band, const openvdb::MaskTree& solid,
+                    const BandOptions& options) const {
+    FootCells cells(cellOptions(narrowed(options), true), budget_);
+    addCells(
+        closed_,
+        [&](LimitSink& next) {
+          return std::make_unique<ExposedPieces>(solid, kExposedDepth, next);
+        },
+        0, cells);
+    widen(band, kMostExact, cells.bins(), options, progress_);
+  }
+
+  static constexpr double kPartOfCells = 0.3;  // of the work
+
+  static bool isWide(const BandOptions& options) {
+    return std::max(options.in, options.out) > kMostExact;
+  }
+
+  /// The part of a band that all cells scan.
+  static BandOptions narrowed(const BandOptions& options) {
     BandOptions narrow = options;
     narrow.in = std::min(options.in, kMostExact);
     narrow.out = std::min(options.out, kMostExact);
-    const bool isWide = narrow.in < options.in || narrow.out < options.out;
-    FootCells cells({.reach = reachOf(narrow, byVoxels), .polynomials = !isWide}, budget_);
-    addCells(parts, byVoxels, kPartOfCells * share, cells);
-    const FootBins bins = cells.bins();
-    const Band band = makeBand(bins, narrow, byVoxels ? inside_ : Inside{}, progress_,
-                               (1 - kPartOfCells) * share);
-    if (isWide && (byVoxels || band.jumps == 0))
-      widen(*band.tree, kMostExact, bins, options, progress_);
-    return band;
+    return narrow;
   }
 
-  /// Where parts overlap, a surface that is not passed on by ExposedPieces must lie within the
-  /// reach of the surface around it.
-  static float reachOf(const BandOptions& options, bool byVoxels) {
-    const double more = byVoxels ? kExposedDepth + 0.5 : 0;
-    return static_cast<float>(std::max(options.in, options.out) + options.halfThickness + more);
+  static CellOptions cellOptions(const BandOptions& options, bool isWide) {
+    const double reach = std::max(options.in, options.out) + options.halfThickness;
+    return {.reach = static_cast<float>(reach), .polynomials = !isWide, .places = false};
   }
 
-  void addCells(const std::vector<Part>& parts, bool byVoxels, double share, FootCells& cells) {
+  /// @param filter  may be empty
+  void addCells(const std::vector<Part>& parts, const PieceFilter& filter, double share,
+                FootCells& cells) const {
     const double shareOfSurface = share / static_cast<double>(surfaces_.size());
     forEachSurface(parts, [&](std::span<const Part> ofSurface) {
-      addCellsOfSurface(ofSurface, byVoxels, shareOfSurface, cells);
+      const PreparedSurface& surface = surfaces_[ofSurface[0].surface];
+      const std::vector<Index> faces = facesOf(ofSurface);
+      if (levelOf(surface.way))
+        cells.addTriangles(trianglesOfLevel(surface, faces, budget_, progress_), progress_);
+      else
+        cells.addLimitSurface(surface, faces, filter, progress_, shareOfSurface);
     });
-  }
-
-  /// @param parts  of one surface
-  void addCellsOfSurface(std::span<const Part> parts, bool byVoxels, double share,
-                         FootCells& cells) const {
-    const PreparedSurface& surface = surfaces_[parts[0].surface];
-    if (levelOf(surface.way)) {
-      constexpr std::size_t kMostGroups = 256;  // beyond, each would cost a pass over the mesh
-      if (parts.size() > kMostGroups)
-        return cells.addTriangles(trianglesOfLevel(surface, facesOf(parts), budget_, progress_),
-                                  parts[0].group, progress_);
-      for (const Part& part : parts)
-        cells.addTriangles(trianglesOfLevel(surface, part.component->faces, budget_, progress_),
-                           part.group, progress_);
-      return;
-    }
-    const std::vector<std::uint32_t> groups = groupsOfCorners(surface.base.mesh, parts);
-    PieceFilter filter;
-    if (byVoxels)
-      filter = [this](LimitSink& next) {
-        return std::make_unique<ExposedPieces>(
-            *inside_.solid, closed_.size() > 1 ? kExposedDepth : kFoldedDepth, next);
-      };
-    cells.addLimitSurface(surface, facesOf(parts), groups, filter, progress_, share);
   }
 
   std::span<const PreparedSurface> surfaces_;

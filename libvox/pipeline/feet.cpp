@@ -80,9 +80,9 @@ void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels, fl
     for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {
       const FootSurfaces::Flat& flat = surfaces.flat[s];
       if (flat.triangles.faceCount() > 0)
-        cells.addTriangles(flat.triangles, 0, progress);
+        cells.addTriangles(flat.triangles, progress);
       else
-        cells.addLimitSurface(surfaces.surfaces[s], {}, {}, {}, progress,
+        cells.addLimitSurface(surfaces.surfaces[s], {}, {}, progress,
                               kPartOfCells * part / static_cast<double>(surfaces.surfaces.size()));
     }
     const FootBins bins = cells.bins();

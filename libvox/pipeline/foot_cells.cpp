@@ -9,10 +9,13 @@
 #include "libvox/foot/triangle_maker.h"
 #include "libvox/grid/transform.h"
 #include "libvox/pipeline/run_submeshes.h"
+#include "libvox/pipeline/whole_vertices.h"
 #include "libvox/subdivide/limit_walk.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace vox {
 namespace {
@@ -22,24 +25,32 @@ struct CellWalk {
   CellStore& store;
   LimitWalk walk;
   CellMaker maker;
-  std::unique_ptr<LimitSink> filter;
-  std::vector<Index> faces;
+  std::unique_ptr<LimitSink> filter, joined;
+  std::vector<Index> faces, lastFaces;  // the walk still needs those of the last call
 
+  /// @param whole  may be null
   CellWalk(const SubdivisionLevel& base, const CellOptions& options, std::uint32_t firstOwner,
-           std::span<const std::uint32_t> groups, CellStore& cells, const PieceFilter& makeFilter)
-      : store(cells), walk(base, options.tolerance), maker(options, firstOwner, groups, cells) {
+           CellStore& cells, const PieceFilter& makeFilter, const WholeVertices* whole)
+      : store(cells), walk(base, options.tolerance), maker(options, firstOwner, cells) {
     if (makeFilter) filter = makeFilter(maker);
+    if (whole != nullptr) joined = std::make_unique<JoinedPieces>(*whole, filtered());
   }
+
+  LimitSink& filtered() { return filter ? *filter : maker; }
 
   /// @param among  the faces to walk over, ascending; empty: all
   void emit(std::span<const Index> submesh, const std::vector<Index>& among) {
-    LimitSink& sink = filter ? *filter : maker;
+    LimitSink& sink = joined ? *joined : filtered();
     if (among.empty() || among.size() == walk.base().mesh.faceCount())
       return walk.emit(submesh, sink);
+    std::swap(faces, lastFaces);
     faces.clear();
     for (const Index f : submesh)
       if (std::binary_search(among.begin(), among.end(), f)) faces.push_back(f);
-    if (!faces.empty()) walk.emit(faces, sink);
+    if (faces.empty())
+      std::swap(faces, lastFaces);
+    else
+      walk.emit(faces, sink);
   }
 };
 
@@ -60,8 +71,7 @@ void FootCells::takeOwners(std::uint64_t count) {
 }
 
 void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vector<Index>& faces,
-                                std::span<const std::uint32_t> groups, const PieceFilter& filter,
-                                Progress& progress, double part) {
+                                const PieceFilter& filter, Progress& progress, double part) {
   const std::uint32_t firstOwner = firstOwner_;
   takeOwners(surface.base.mesh.cornerCount());
   // On a surface of a few voxels, errors of the shape are far from voxels and add up there.
@@ -69,9 +79,11 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
   CellOptions cellOptions = options_;
   cellOptions.tolerance =
       std::min(options_.tolerance, kPartOfSize * usedBox(surface.base.mesh).longestSide());
+  std::optional<WholeVertices> whole;
+  if (!options_.places) whole.emplace(surface.base);
   const auto walkOfThread = [&] {
-    return std::make_unique<CellWalk>(surface.base, cellOptions, firstOwner, groups,
-                                      *storeOfThread_.local(), filter);
+    return std::make_unique<CellWalk>(surface.base, cellOptions, firstOwner,
+                                      *storeOfThread_.local(), filter, whole ? &*whole : nullptr);
   };
   runSubmeshes(cutIntoSubmeshes(surface.base, surface.options), progress, part, walkOfThread,
                [&](const std::unique_ptr<CellWalk>& walk, const SubmeshTask& task) {
@@ -81,8 +93,7 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
                });
 }
 
-void FootCells::addTriangles(const PolygonMesh& triangles, std::uint32_t group,
-                             Progress& progress) {
+void FootCells::addTriangles(const PolygonMesh& triangles, Progress& progress) {
   constexpr std::size_t kTrianglesPerTask = 1024;
   const std::uint32_t firstOwner = firstOwner_;
   takeOwners(triangles.faceCount());
@@ -92,7 +103,7 @@ void FootCells::addTriangles(const PolygonMesh& triangles, std::uint32_t group,
         progress.check();
         CellStore& store = *storeOfThread_.local();
         const std::uint64_t before = store.bytes();
-        maker.add(static_cast<Index>(begin), static_cast<Index>(end), firstOwner, group, store);
+        maker.add(static_cast<Index>(begin), static_cast<Index>(end), firstOwner, store);
         account(before, store);
       });
 }

@@ -40,18 +40,16 @@ class FootCells {
   /// Adds the limit surface of some faces of a surface. The owners of the cells are the numbers of
   /// the corners, after those of earlier surfaces.
   /// @param faces   ascending; empty: all
-  /// @param groups  of the corners (foot/cell.h); empty: all 0
   /// @param filter  may be empty
   /// @param part    the share of this in the current stage of `progress`
   /// @throws LimitError  coordinates are out of range, there are too many corners, or not enough
   ///   memory
   /// @throws Cancelled
   void addLimitSurface(const PreparedSurface& surface, const std::vector<Index>& faces,
-                       std::span<const std::uint32_t> groups, const PieceFilter& filter,
-                       Progress& progress, double part);
-  /// Adds the triangles of a mesh, as one group. The owners of the cells are the numbers of
-  /// the triangles, after those of earlier surfaces.
-  void addTriangles(const PolygonMesh& triangles, std::uint32_t group, Progress& progress);
+                       const PieceFilter& filter, Progress& progress, double part);
+  /// Adds the triangles of a mesh. The owners of the cells are the numbers of the triangles, after
+  /// those of earlier surfaces.
+  void addTriangles(const PolygonMesh& triangles, Progress& progress);
 
   /// The cells sorted by bins. Valid as long as this object is not changed.
   FootBins bins() const;

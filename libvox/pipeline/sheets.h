@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/foot/band.h"
+#include "libvox/grid/openvdb_fwd.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/prepared_surface.h"
 
@@ -10,6 +10,12 @@
 namespace vox {
 
 class Progress;
+
+/// Which voxels are inside.
+struct Inside {
+  const openvdb::MaskTree* surface = nullptr;  ///< voxels that a surface crosses
+  const openvdb::MaskTree* solid = nullptr;    ///< these, and what they enclose
+};
 
 /// Whether each component of a surface has an inside: a closed one has, and an open one if its
 /// inner side is mostly solid, so that its holes are narrower than a voxel. The others are sheets.

@@ -369,8 +369,8 @@ class SoftDensity {
   void addCells(const PreparedSurface& surface, const std::vector<Index>& faces, double part,
                 FootCells& cells) const {
     if (levelOf(surface.way))
-      return cells.addTriangles(trianglesOfLevel(surface, faces, budget_, progress_), 0, progress_);
-    cells.addLimitSurface(surface, faces, {}, {}, progress_, part);
+      return cells.addTriangles(trianglesOfLevel(surface, faces, budget_, progress_), progress_);
+    cells.addLimitSurface(surface, faces, {}, progress_, part);
   }
 
   void switchOffEmpty() {

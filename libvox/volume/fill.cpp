@@ -206,6 +206,14 @@ class Flood {
     });
   }
 
+  /// Whether two places in a lower node, neighbours across a row along z, are inactive and so are
+  /// those before them in their rows: then these are joined, and the rows are.
+  static bool areJoinedBefore(const Lower& lower, openvdb::Index slot, openvdb::Index next,
+                              const Coord& local) {
+    return next != slot + 1 && local.z() > 0 && isInactive(lower, slot) &&
+           isInactive(lower, next) && isInactive(lower, slot - 1) && isInactive(lower, next - 1);
+  }
+
   /// Joins the elements of each place of a lower node with those of the next place along each axis.
   /// At the border of the node, the next place may be in another node.
   void joinInLower(std::size_t l) {
@@ -218,11 +226,13 @@ class Flood {
       for (int side = 0; side < kSides; ++side) {
         const int axis = side / 2;
         const bool upper = side % 2 == 1;
-        const Coord across = origin + stepAcross(side, kLeafDim);
         if (local[axis] != (upper ? kSide - 1 : 0)) {
-          if (upper) joinPlaces(l, slot, l, Lower::coordToOffset(across), axis);
+          const openvdb::Index next = slot + (openvdb::Index{1} << (2 - axis) * Lower::LOG2DIM);
+          if (upper && !areJoinedBefore(*lowers_[l], slot, next, local))
+            joinPlaces(l, slot, l, next, axis);
           continue;
         }
+        const Coord across = origin + stepAcross(side, kLeafDim);
         const auto next = lowerAt_.find(across & ~(static_cast<int>(Lower::DIM) - 1));
         if (next == lowerAt_.end()) {
           const Element around = elementAround(across);
@@ -238,12 +248,27 @@ class Flood {
   /// Joins the empty places of an upper node with their neighbours, except lower nodes: these are
   /// joined in joinInLower.
   void joinInUpper(std::size_t u) {
+    constexpr int kSide = 1 << Upper::LOG2DIM;
+    const Upper& upper = *uppers_[u];
     for (openvdb::Index slot = 0; slot < Upper::NUM_VALUES; ++slot) {
-      if (!isInactive(*uppers_[u], slot)) continue;
-      const Coord origin = uppers_[u]->offsetToGlobalCoord(slot);
+      if (!isInactive(upper, slot)) continue;
+      Coord local;
+      Upper::offsetToLocalCoord(slot, local);
       for (int side = 0; side < kSides; ++side) {
-        const Coord across = origin + stepAcross(side, static_cast<int>(Lower::DIM));
-        if (lowerAt_.count(across) == 0) sets_->unite(upperElement(u, slot), elementAround(across));
+        const int axis = side / 2;
+        const bool isUp = side % 2 == 1;
+        if (local[axis] != (isUp ? kSide - 1 : 0)) {
+          // The lower one of two places in this node joins them.
+          const openvdb::Index next = slot + (openvdb::Index{1} << (2 - axis) * Upper::LOG2DIM);
+          if (isUp && isInactive(upper, next))
+            sets_->unite(upperElement(u, slot), upperElement(u, next));
+          continue;
+        }
+        const Coord across =
+            upper.offsetToGlobalCoord(slot) + stepAcross(side, static_cast<int>(Lower::DIM));
+        if (lowerAt_.count(across) > 0) continue;
+        const Element around = elementAround(across);
+        if (around != kActive) sets_->unite(upperElement(u, slot), around);
       }
     }
   }
