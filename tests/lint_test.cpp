@@ -135,6 +135,39 @@ TEST_CASE("signed distances are checked as such, and must not be called density"
                              "first at (9 0 0)"));
 }
 
+TEST_CASE("a level set with hardly any inside gives a warning", "[inspect][lint]") {
+  openvdb::initialize();
+  auto grid = openvdb::FloatGrid::create(3);
+  grid->setName("surface");
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  for (int z = -2; z <= 2; ++z)
+    for (int x = 0; x < 20; ++x)
+      for (int y = 0; y < 20; ++y)
+        grid->tree().setValueOn({x, y, z}, static_cast<float>(std::abs(z)) + 0.25F);
+  const auto findings = lintGrid(*grid);
+  CHECK(codesOf(findings) == "no-inside");
+  CHECK_FALSE(findings[0].isFault);
+  grid->tree().setValueOn({5, 5, 0}, -0.5F);
+  CHECK(codesOf(lintGrid(*grid)).find("no-inside") == std::string::npos);
+}
+
+TEST_CASE("a grid longer than EEVEE shows gives a warning, but not for Houdini",
+          "[inspect][lint]") {
+  const int axis = GENERATE(0, 1, 2);
+  const auto grid = fog();
+  Coord far(0, 3, 4);
+  far[axis] += 2047;
+  grid->tree().setValueOn(far, 1.0F);
+  CHECK(codesOf(lintGrid(*grid)).empty());
+  ++far[axis];
+  grid->tree().setValueOn(far, 1.0F);
+  const auto findings = lintGrid(*grid);
+  CHECK(codesOf(findings) == "eevee");
+  CHECK_FALSE(findings[0].isFault);
+  grid->insertMeta("vox_options", openvdb::StringMetadata("target=houdini"));
+  CHECK(codesOf(lintGrid(*grid)).empty());
+}
+
 TEST_CASE("exact distances are no fault where two parts of a surface are equally near",
           "[inspect][lint]") {
   // Half way between two parallel planes the gradient is 0; in the corner between three planes it

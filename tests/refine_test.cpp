@@ -40,6 +40,52 @@ TEST_CASE("level 0 is the prepared mesh: welded, oriented, each face from its lo
   CHECK(repaired.warnings.size() == 1);
 }
 
+TEST_CASE("colours that are an affine function of the position stay so at every level",
+          "[pipeline][color]") {
+  const auto colorAt = [](const Vec3d& p) {
+    return Vec3d(0.5 + 0.05 * p.x(), 0.4 - 0.06 * p.y() + 0.02 * p.z(), 0.25);
+  };
+  PolygonMesh mesh = GENERATE(test::cube(), test::sheet(4, 3), test::dodecahedron());
+  for (const Vec3d& point : mesh.points) mesh.pointColors.push_back(colorAt(point).cast<float>());
+  for (const int levels : {0, 1, 3}) {
+    const PolygonMesh refined = refine(test::sceneOf({mesh}), levels, {}, {}).mesh;
+    REQUIRE(refined.pointColors.size() == refined.points.size());
+    double most = 0;
+    for (Index v = 0; v < refined.pointCount(); ++v) {
+      const Vec3d off = refined.pointColors[v].cast<double>() - colorAt(refined.points[v]);
+      most = std::max(most, off.cwiseAbs().maxCoeff());
+    }
+    CHECK(most < 1e-6);
+  }
+}
+
+TEST_CASE("the first step gives every image vertex the colour of its face", "[pipeline][color]") {
+  PolygonMesh mesh = GENERATE(test::cube(), test::sheet(2, 2));
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+    mesh.faceColors.emplace_back(0.1F * static_cast<float>(f), 1, 0);
+  const PolygonMesh controls = refine(test::sceneOf({mesh}), 0, {}, {}).mesh;
+  CHECK(controls.faceColors == mesh.faceColors);
+  CHECK(controls.pointColors.empty());
+  const PolygonMesh refined = refine(test::sceneOf({mesh}), 1, {}, {}).mesh;
+  REQUIRE(refined.pointColors.size() == refined.points.size());
+  for (Index f = 0; f < mesh.faceCount(); ++f)  // the first faces are F-faces
+    for (const Index v : refined.face(f)) CHECK(refined.pointColors[v] == mesh.faceColors[f]);
+}
+
+TEST_CASE("objects without colours are grey beside others", "[pipeline][color]") {
+  PolygonMesh colored = test::cube();
+  colored.pointColors.assign(8, Vec3f(1, 0, 0));
+  for (const bool first : {false, true}) {
+    const Scene scene = first ? test::sceneOf({colored, test::tetrahedron()})
+                              : test::sceneOf({test::tetrahedron(), colored});
+    const PolygonMesh mesh = refine(scene, 0, {}, {}).mesh;
+    REQUIRE(mesh.pointColors.size() == 12);
+    CHECK(mesh.pointColors.front() == (first ? Vec3f(1, 0, 0) : Vec3f(0.8F, 0.8F, 0.8F)));
+    CHECK(mesh.pointColors.back() == (first ? Vec3f(0.8F, 0.8F, 0.8F) : Vec3f(1, 0, 0)));
+  }
+  CHECK(refine(test::sceneOf({test::cube(), test::cube()}), 1, {}, {}).mesh.pointColors.empty());
+}
+
 TEST_CASE("level 0 is the control mesh when vertices are interpolated", "[pipeline]") {
   PreparationOptions options;
   options.smoothing.interpolate = Interpolate::kInterior;

@@ -1,5 +1,6 @@
 #include "libvox/inspect/separation.h"
 
+#include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/inspect/components.h"
 #include "libvox/pipeline/convert.h"
@@ -7,12 +8,14 @@
 #include "libvox/prepare/sound.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
+#include "libvox/voxelize/scan.h"
 #include "tests/reference.h"
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <optional>
 
 using namespace vox;
 using openvdb::Coord;
@@ -193,6 +196,38 @@ TEST_CASE("polygons of different depths meet without gaps", "[inspect][separatio
     tunnels += leaks;
   }
   CHECK(tunnels > 3);
+}
+
+TEST_CASE("gaps of polygons of different depths show against a level of the whole mesh",
+          "[inspect][separation]") {
+  const StopRule until = {.diameter = 4, .angle = 8};
+  PolygonMesh mesh = test::dodecahedron();
+  for (Vec3d& p : mesh.points) p *= 9.3;
+  const SubdivisionLevel base = baseLevel(mesh, BoundaryRule::kExtend);
+  Progress unwatched;
+  TriangleSoup soup = triangleSoup(base, until, {}, unwatched);
+  ReferenceSurface plain = referenceSurface(subdivide(base, 3).mesh, 0);
+  const std::optional<int> reach = reachOf(plain, {soup.points, soup.triangles, 0});
+  REQUIRE(reach);
+  CHECK(*reach <= 2);
+  plain.tolerance = std::max(1, *reach);
+  const auto voxelsOfSoup = [&] {
+    MaskTree voxels;
+    scanTriangles(soup.points, soup.triangles, Separation::k6, [&](const VoxelBlock& block) {
+      forEachVoxel(block, [&](int x, int y, int z) { voxels.setValueOn({x, y, z}); });
+    });
+    return voxels;
+  };
+  CHECK(findTunnels(voxelsOfSoup(), plain, Separation::k6).tunnels == 0);
+  // A gap in the polygons: they and their voxels fit each other.
+  const Vec3d hole = soup.points[soup.triangles[0][0]];
+  std::erase_if(soup.triangles,
+                [&](const auto& corners) { return (soup.points[corners[0]] - hole).norm() < 4; });
+  const MaskTree holed = voxelsOfSoup();
+  CHECK(Cavities(holed).enclosed().empty());
+  const ReferenceSurface itself = {soup.points, soup.triangles, 0};
+  CHECK(findTunnels(holed, itself, Separation::k6).tunnels == 0);
+  CHECK(findTunnels(holed, plain, Separation::k6).tunnels > 0);
 }
 
 TEST_CASE("one-sided surfaces have tunnels, too", "[inspect][separation]") {

@@ -121,6 +121,33 @@ TEST_CASE("writing and reading back gives the same bits", "[io][property]") {
     checkSameBits(readBack(written(mesh, format), name), mesh);
 }
 
+TEST_CASE("colours that were written are read back", "[io][color]") {
+  PolygonMesh mesh = polygonOf(5);
+  mesh.addFace(std::vector<Index>{0, 2, 4});
+  for (Index v = 0; v < mesh.pointCount(); ++v)
+    mesh.pointColors.emplace_back(0.25F * static_cast<float>(v), 1.0F, 0.001F);
+  const auto near = [](const std::vector<Vec3f>& a, const std::vector<Vec3f>& b, float most) {
+    bool same = a.size() == b.size();
+    for (std::size_t i = 0; same && i < a.size(); ++i)
+      same = (a[i] - b[i]).cwiseAbs().maxCoeff() <= most;
+    return same;
+  };
+  constexpr float kRounding = 1e-6F;
+  constexpr float kByte = 0.6F / 255 * 2.4F;  // half a step where the curve of sRGB is steepest
+  const PolygonMesh obj = readBack(written(mesh, MeshFormat::kObj), "a.obj");
+  CHECK(near(obj.pointColors, mesh.pointColors, kRounding));
+  for (const bool onFaces : {false, true}) {
+    if (onFaces) mesh.faceColors = {{0.5F, 0, 1}, {0, 0.25F, 0}};
+    const PolygonMesh off = readBack(written(mesh, MeshFormat::kOff), "a.off");
+    CHECK(near(off.pointColors, mesh.pointColors, kRounding));
+    CHECK(near(off.faceColors, mesh.faceColors, kRounding));
+    const PolygonMesh ply = readBack(written(mesh, MeshFormat::kPly), "a.ply");
+    CHECK(near(ply.pointColors, mesh.pointColors, kByte));
+    CHECK(near(ply.faceColors, mesh.faceColors, kByte));
+    checkSameBits(ply, mesh);
+  }
+}
+
 TEST_CASE("PLY counts corners with uchar where it can", "[io]") {
   CHECK_THAT(written(polygonOf(255), MeshFormat::kPly), Catch::Contains("list uchar int"));
   CHECK_THAT(written(polygonOf(256), MeshFormat::kPly), Catch::Contains("list uint int"));

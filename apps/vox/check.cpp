@@ -148,7 +148,7 @@ void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
   if (!grid.transform().isLinear() || !grid.hasUniformVoxels())
     throw InputError(options.file + ": a mesh can be held against voxels that are cubes only");
   const ConvertOptions made = optionsOfFile(grid, options);
-  const Scene scene = readScene(options.mesh);
+  const Scene scene = readScene(options.mesh, made.scale);
   check.objects = checkObjects(voxels, scene, resolve(scene, made), grid.voxelSize().x());
   for (const ObjectCheck& object : check.objects)
     if (object.separation.tunnels > 0)
@@ -198,15 +198,22 @@ Json toJson(const std::vector<Component>& components) {
   return json;
 }
 
+std::size_t faultCount(const Check& check) {
+  return static_cast<std::size_t>(
+      std::count_if(check.findings.begin(), check.findings.end(),
+                    [](const LintFinding& finding) { return finding.isFault; }));
+}
+
 Json toJson(const CheckArguments& options, const Check& check) {
   Json json = {{"file", options.file},
-               {"ok", check.findings.empty()},
+               {"ok", faultCount(check) == 0},
                {"grid", check.grid},
                {"active_voxels", check.activeVoxels},
                {"components", toJson(check.components)},
                {"enclosed", toJson(check.enclosed)},
                {"objects", Json::array()},
-               {"faults", Json::array()}};
+               {"faults", Json::array()},
+               {"warnings", Json::array()}};
   for (const ObjectCheck& object : check.objects) {
     const auto& first = object.separation.first;
     json["objects"].push_back({{"name", object.name},
@@ -214,8 +221,10 @@ Json toJson(const CheckArguments& options, const Check& check) {
                                {"first", first ? Json(*first) : Json()}});
   }
   for (const LintFinding& finding : check.findings)
-    json["faults"].push_back(
-        {{"fault", finding.code}, {"grid", finding.grid}, {"message", finding.message}});
+    json[finding.isFault ? "faults" : "warnings"].push_back(
+        {{finding.isFault ? "fault" : "warning", finding.code},
+         {"grid", finding.grid},
+         {"message", finding.message}});
   return json;
 }
 
@@ -232,11 +241,10 @@ void print(const CheckArguments& options, const Check& check) {
   for (const ObjectCheck& object : check.objects)
     std::cout << onOneLine(object.name) << ": " << separationText(object.separation) << '\n';
   for (const LintFinding& finding : check.findings)
-    std::cout << "fault " << finding.code << ": "
+    std::cout << (finding.isFault ? "fault " : "warning ") << finding.code << ": "
               << onOneLine(finding.grid.empty() ? options.file : finding.grid) << ": "
               << onOneLine(finding.message) << '\n';
-  std::cout << (check.findings.empty() ? "no faults" : counted(check.findings.size(), "fault"))
-            << '\n';
+  std::cout << (faultCount(check) == 0 ? "no faults" : counted(faultCount(check), "fault")) << '\n';
 }
 
 int runCheck(const CheckArguments& options) {
@@ -245,11 +253,12 @@ int runCheck(const CheckArguments& options) {
     std::cout << toJson(options, check).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   else if (!options.quiet)
     print(options, check);
-  return check.findings.empty() ? 0 : kFaulty;
+  return faultCount(check) == 0 ? 0 : kFaulty;
 }
 
 std::string footer() {
-  std::string text = "Exit code 0: no faults; 1: some. Faults that are looked for:\n";
+  std::string text =
+      "Exit code 0: no faults, or only warnings; 1: some. Faults that are looked for:\n";
   const auto line = [&](const std::string& code, const std::string& what) {
     constexpr std::size_t kWidth = 14;
     text += "  " + code + std::string(kWidth - std::min(kWidth, code.size()), ' ') + what + '\n';
@@ -288,7 +297,7 @@ Action addCheck(CLI::App& app) {
   addWeldOption(command, options->weldTolerance);
   command
       .add("--ignore", options->ignore,
-           "Faults that do not count, with commas; their names are below")
+           "Faults and warnings that do not count, with commas; their names are below")
       .type("LIST")
       .group("Output");
   command.addFlag("--json", options->json, "Print JSON").group("Output");

@@ -135,7 +135,7 @@ void shareVoxelSize(const ConvertArguments& options, const std::vector<Frame>& f
   Box box;
   Resolution resolution;  // of the options, else of the first scene that sets one
   for (const Frame& frame : frames) {
-    const Scene scene = readScene(frame.input);
+    const Scene scene = readScene(frame.input, convertOptions.scale);
     if (!options.dryRun) requireOutputs(options, frame, scene);
     if (!resolution.isSet()) resolution = resolutionOf(scene, convertOptions);
     box.add(boxOf(scene));
@@ -147,7 +147,7 @@ void shareVoxelSize(const ConvertArguments& options, const std::vector<Frame>& f
 void runFrame(const ConvertArguments& options, const Frame& frame, ConvertOptions convertOptions) {
   ProgressBar bar(!options.common.quiet);
   const Stopwatch reading;
-  const Scene scene = readScene(frame.input);
+  const Scene scene = readScene(frame.input, convertOptions.scale);
   const double readSeconds = reading.seconds();
   if (options.dryRun) return printEstimate(options, scene, resolve(scene, convertOptions));
   requireOutputs(options, frame, scene);
@@ -201,6 +201,7 @@ Action addConvert(CLI::App& app) {
       .type("OUT.vdb")
       .group("Output");
   addResolutionOptions(command, options->conversion.resolution);
+  addScaleOption(command, options->conversion.scale);
   addSmoothingOptions(command, options->conversion.smoothing);
   addVoxelizationOptions(command, options->conversion.voxelization);
   addWeldOption(command, options->conversion.weldTolerance);

@@ -66,6 +66,7 @@ Json optionsJson(const FinishedRun& run) {
   const SmoothingOptions& smoothing = options.smoothing;
   const auto orNull = [](const auto& value) { return value ? Json(*value) : Json(); };
   Json json = {
+      {"scale", orNull(options.scale)},
       {"dim", orNull(options.dim)},
       {"voxel_size", orNull(options.voxelSize)},
       {"boundary",

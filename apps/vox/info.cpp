@@ -23,6 +23,7 @@ namespace {
 struct InfoArguments {
   std::vector<std::string> files;
   bool json = false;
+  std::optional<double> scale;
   std::optional<double> weldTolerance;
 };
 
@@ -142,12 +143,15 @@ Json describe(const SceneObject& object, double weldTolerance, bool json) {
   const MeshSummary prepared = summarize(soundMesh(object.mesh, options, report));
   if (json) {
     Json all = {{"name", object.name}};
+    all["reading"] = lossText(object.reading);
     all.update(toJson(input));
     all["repair"] = toJson(report);
     all["prepared"] = toJson(prepared);
     return all;
   }
   print("mesh " + object.name, input);
+  if (const std::string lost = lossText(object.reading); !lost.empty())
+    std::cout << "    reading           " << lost << '\n';
   const std::string done = summary(report);
   std::cout << "    repair            " << (done.empty() ? "none needed" : done) << '\n';
   if (prepared.faces == 0)
@@ -181,7 +185,7 @@ Json describe(const std::string& file, const InfoArguments& options) {
     }
     return all;
   }
-  const Scene scene = readScene(file);
+  const Scene scene = readScene(file, options.scale);
   PreparationOptions preparation;
   preparation.weldTolerance = options.weldTolerance;
   const std::vector<ObjectPreparation> prepared = preparationsOf(scene, preparation);
@@ -204,6 +208,7 @@ Action addInfo(CLI::App& app) {
   const auto options = std::make_shared<InfoArguments>();
   command.add("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)").required();
   command.addFlag("--json", options->json, "Print JSON");
+  addScaleOption(command, options->scale);
   addWeldOption(command, options->weldTolerance);
   return [options] { return runInfo(*options); };
 }

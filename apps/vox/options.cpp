@@ -275,11 +275,22 @@ void addWeldOption(const Command& command, std::optional<double>& tolerance) {
       .group("Repair");
 }
 
+void addScaleOption(const Command& command, std::optional<double>& scale) {
+  command
+      .add(
+          "--scale", scale,
+          "Factor for all coordinates of the input, if its unit is wrong; lengths of other options "
+          "are those after it (default: the scene's, or 1)")
+      .type("S")
+      .group("Resolution");
+}
+
 void addStrictOption(const Command& command, std::optional<bool>& strict) {
   command
-      .addFlag("--strict", strict,
-               "Refuse a mesh that needs any repair or turning of faces (default: the scene's, or "
-               "repair it and say what was done)")
+      .addFlag(
+          "--strict", strict,
+          "Refuse a mesh that needs any repair or turning of faces, or whose file is not quite "
+          "of its format (default: the scene's, or repair it and say what was done)")
       .group("Repair");
 }
 
@@ -310,6 +321,7 @@ SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments) {
 
 ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOptions& run) {
   ConvertOptions parsed;
+  parsed.scale = arguments.scale;
   parsed.dim = arguments.resolution.dim;
   parsed.voxelSize = arguments.resolution.voxelSize;
   parsed.smoothing = parseSmoothing(arguments.smoothing);

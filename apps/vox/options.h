@@ -78,6 +78,9 @@ VolumeOptions parseVolume(const VolumeArguments& arguments);
 /// --weld.
 void addWeldOption(const Command& command, std::optional<double>& tolerance);
 
+/// --scale.
+void addScaleOption(const Command& command, std::optional<double>& scale);
+
 /// --strict; --strict=false overrides a scene.
 void addStrictOption(const Command& command, std::optional<bool>& strict);
 
@@ -92,6 +95,7 @@ SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments);
 
 /// Options of vox convert and vox render that tell how a mesh or scene becomes voxels, as typed.
 struct ConversionArguments {
+  std::optional<double> scale;
   ResolutionOptions resolution;
   SmoothingArguments smoothing;
   VoxelizationArguments voxelization;

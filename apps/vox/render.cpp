@@ -167,7 +167,7 @@ int runRender(const RenderArguments& options) {
   if (isVdb)
     scene.files = {options.input};
   else
-    scene = readScene(options.input);
+    scene = readScene(options.input, convertOptions.scale);
   requireOutput(options.output, options.common, scene);
   convertOptions.grids = gridsFor(renderOptions, convertOptions.texture || hasColors(scene));
   Conversion conversion;
@@ -234,6 +234,7 @@ void addGridOptions(const Command& command, RenderArguments& options) {
 void addMeshOptions(const Command& command, RenderArguments& options) {
   const std::size_t before = command.options().size();
   addResolutionOptions(command, options.conversion.resolution);
+  addScaleOption(command, options.conversion.scale);
   addSmoothingOptions(command, options.conversion.smoothing);
   addVoxelizationOptions(command, options.conversion.voxelization);
   addWeldOption(command, options.conversion.weldTolerance);

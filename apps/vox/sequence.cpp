@@ -110,7 +110,8 @@ std::vector<Frame> framesOf(const std::vector<std::string>& inputs, const std::s
   if (!numbered && !output.empty())
     throw UsageError(output +
                      ": the output of several inputs needs a place for a number, such as "
-                     "out.####.vdb");
+                     "out.####.vdb; to put them into one file, list them as objects of a scene "
+                     "(.toml)");
   std::vector<Frame> frames;
   for (const auto& [number, input] : files)
     frames.push_back({input, numbered ? numbered->with(number) : ""});

@@ -22,6 +22,7 @@ struct SubdivideArguments {
   std::string output;
   int levels = 0;
   SmoothingArguments smoothing;
+  std::optional<double> scale;
   std::optional<double> weldTolerance;
   std::optional<bool> strict;
   CommonOptions common;
@@ -31,29 +32,46 @@ struct SubdivideArguments {
 std::uint64_t expectedBytes(const PolygonMesh& mesh) {
   constexpr std::uint64_t kPerPoint = 55;
   constexpr std::uint64_t kPerCorner = 8;
-  return kPerPoint * mesh.pointCount() + kPerCorner * mesh.cornerCount();
+  constexpr std::uint64_t kPerColor = 33;
+  return kPerPoint * mesh.pointCount() + kPerCorner * mesh.cornerCount() +
+         kPerColor * (mesh.pointColors.size() + mesh.faceColors.size());
+}
+
+MeshFormat formatOf(const std::string& output) {
+  return isStdout(output) ? MeshFormat::kObj : meshFormatFor(output);
+}
+
+/// Warns of colours that the file does not get.
+void sayLostColors(const SubdivideArguments& options, const Scene& scene, const PolygonMesh& mesh) {
+  if (formatOf(options.output) == MeshFormat::kObj && !mesh.faceColors.empty())
+    say(options.common,
+        "warning: OBJ has no colours of faces, so they are dropped; .ply and .off keep them");
+  for (const SceneObject& object : scene.objects)
+    if (object.texture)
+      return say(options.common,
+                 "warning: textures are not written: a mesh file has no place for them");
 }
 
 void write(const SubdivideArguments& options, const PolygonMesh& mesh, Progress& progress) {
   progress.beginLast("write");
   if (isStdout(options.output)) {
     WatchedStream stream(*std::cout.rdbuf(), progress, expectedBytes(mesh));
-    writeMesh(stream, mesh, MeshFormat::kObj);
+    writeMesh(stream, mesh, formatOf(options.output));
     return;
   }
   AtomicFile output(options.output, options.common.force);
   WatchedStream stream(*output.stream().rdbuf(), progress, expectedBytes(mesh));
-  writeMesh(stream, mesh, meshFormatFor(options.output));
+  writeMesh(stream, mesh, formatOf(options.output));
   progress.check();
   output.commit();
 }
 
 int runSubdivide(const SubdivideArguments& options) {
-  if (!isStdout(options.output)) meshFormatFor(options.output);
+  formatOf(options.output);  // refuses others
   const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
                                           options.strict};
   ProgressBar bar(!options.common.quiet);
-  const Scene scene = readScene(options.input);
+  const Scene scene = readScene(options.input, options.scale);
   requireOutput(options.output, options.common, scene);
   Progress progress(bar.callback());
   RunOptions runOptions = options.common.run;
@@ -68,6 +86,7 @@ int runSubdivide(const SubdivideArguments& options) {
   bar.erase();
   const PolygonMesh& mesh = refined.mesh;
   for (const std::string& warning : refined.warnings) say(options.common, "warning: " + warning);
+  sayLostColors(options, scene, mesh);
   say(options.common, options.output + ": " + std::to_string(mesh.pointCount()) + " vertices, " +
                           std::to_string(mesh.faceCount()) + " faces");
   return 0;
@@ -96,6 +115,7 @@ Action addSubdivide(CLI::App& app) {
       .type("K")
       .group("Output");
   addSmoothingOptions(command, options->smoothing);
+  addScaleOption(command, options->scale);
   addWeldOption(command, options->weldTolerance);
   addStrictOption(command, options->strict);
   addCommonOptions(command, options->common);

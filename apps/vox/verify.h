@@ -19,7 +19,9 @@ struct ObjectCheck {
 };
 
 /// Looks for tunnels of the surfaces of a scene, object by object. Each surface is made again, as a
-/// whole, level by level: down to faces that fit into a voxel, or to the level of its stop rule.
+/// whole, level by level: down to faces that fit into a voxel, or to the level of its stop rule. If
+/// polygons stop at different levels, the voxels are compared with these, and with a level of the
+/// whole mesh as far as the polygons are from it.
 /// @param request    as for the conversion
 /// @param voxelSize  of the voxels, world units
 /// @throws LimitError  a refined mesh does not fit into memory; and all that prepare throws

@@ -50,10 +50,16 @@ GridTransform transformForDim(const Box& box, int dim) {
 GridTransform transformForVoxelSize(double voxelSize) {
   if (!(voxelSize > 0) || !std::isfinite(voxelSize))
     throw UsageError("--voxel-size must be a positive number, not " + str(voxelSize));
-  if (voxelSize < kMinVoxelSize || voxelSize > kMaxVoxelSize)
+  if (voxelSize < kMinVoxelSize || voxelSize > kMaxVoxelSize) {
+    const bool small = voxelSize < kMinVoxelSize;
+    const double limit = small ? kMinVoxelSize : kMaxVoxelSize;
+    const double power = std::log10(limit / voxelSize);
+    const double scale = std::pow(10.0, small ? std::ceil(power) : std::floor(power));
     throw LimitError("a voxel size of " + str(voxelSize) + " is out of OpenVDB's range, " +
-                     str(kMinVoxelSize) + " to " + str(kMaxVoxelSize) + "; scale the model " +
-                     (voxelSize < kMinVoxelSize ? "up or use larger voxels" : "down"));
+                     str(kMinVoxelSize) + " to " + str(kMaxVoxelSize) + "; make the model " +
+                     str(scale) + " times as large with --scale, or use " +
+                     (small ? "larger" : "smaller") + " voxels");
+  }
   return {.voxelSize = voxelSize};
 }
 

@@ -38,6 +38,9 @@ class LintFindings {
   void add(const std::string& code, const std::string& message) {
     all_.push_back({code, grid_, message});
   }
+  void warn(const std::string& code, const std::string& message) {
+    all_.push_back({code, grid_, message, /*isFault=*/false});
+  }
 
  private:
   std::vector<LintFinding>& all_;
@@ -135,16 +138,21 @@ bool isFog(const GridBase& grid) {
          (grid.getGridClass() == openvdb::GRID_UNKNOWN && grid.getName() == "density");
 }
 
+/// The options that vox recorded; none if the grid is of another program, or damaged.
+VolumeOptions recordedVolume(const GridBase& grid) {
+  const auto text = grid[kOptionsMetadata];
+  if (!text) return {};
+  try {
+    return parseOptionText(text->str()).options.volume;
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 /// The width inside that vox recorded, in voxels, if that outside is another one.
 std::optional<double> recordedInside(const GridBase& grid) {
-  const auto text = grid[kOptionsMetadata];
-  if (!text) return std::nullopt;
-  try {
-    const auto band = parseOptionText(text->str()).options.volume.band;
-    if (band && !band->isSymmetric()) return band->in;
-  } catch (const InputError&) {
-    // Of another program, or damaged: nothing is recorded.
-  }
+  const auto band = recordedVolume(grid).band;
+  if (band && !band->isSymmetric()) return band->in;
   return std::nullopt;
 }
 
@@ -180,10 +188,11 @@ std::string wrongInBand(const Grid& grid) {
 
 /// What is wrong with a level set; empty: nothing. The last check of OpenVDB, of the gradient, is
 /// left out: it reports exact distances where two parts of the surface are equally near.
+/// @param thin  it has hardly any inside: signs, which whole voxels decide, may be wrong there
 template <class Grid>
-std::string wrongInLevelSet(const Grid& grid) {
+std::string wrongInLevelSet(const Grid& grid, bool thin) {
   const std::string wrong = wrongInBand(grid);
-  if (!wrong.empty()) return wrong;
+  if (!wrong.empty() || thin) return wrong;
   const SteepPairs steep = steepPairs(grid);
   if (steep.count == 0) return {};
   return "distances of " + numberText(steep.count) + (steep.count == 1 ? " pair" : " pairs") +
@@ -199,8 +208,14 @@ void lintScalars(const Grid& grid, const Values& values, LintFindings& findings)
   const double background = scalarOf(grid.background());
   if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) {
     if constexpr (std::is_floating_point_v<typename Grid::ValueType>) {
-      const std::string wrong = wrongInLevelSet(grid);
+      // A sheet one voxel thick is deeper.
+      const bool thin = std::isfinite(values.least) && values.least > -grid.voxelSize()[0] / 4;
+      const std::string wrong = wrongInLevelSet(grid, thin);
       if (!wrong.empty()) findings.add("level-set", "is no valid level set: " + wrong);
+      if (thin)
+        findings.warn("no-inside",
+                      "is a level set with hardly any inside: what it shows is thinner than a "
+                      "voxel; use smaller voxels");
     }
     if (grid.getName() == "density")
       findings.add("sdf-as-fog",
@@ -245,6 +260,14 @@ void lintVoxels(const GridBase& grid, LintFindings& findings) {
   else if (grid.constBaseTree().leafCount() == 0)
     findings.add("tiles-only",
                  "has tiles but no leaf: Blender's Cycles will show nothing; voxelize the tiles");
+  // Blender's EEVEE keeps a grid as one texture; Cycles and Houdini have no such limit.
+  constexpr int kMostAlongAxis = 2048;
+  const Coord size = grid.evalActiveVoxelBoundingBox().dim();
+  const int longest = std::max({size.x(), size.y(), size.z()});
+  if (active > 0 && longest > kMostAlongAxis && recordedVolume(grid).target != Target::kHoudini)
+    findings.warn("eevee", "is " + numberText(longest) +
+                               " voxels long: EEVEE of Blender shows at most 2048 along an axis on "
+                               "many graphics cards; Cycles has no such limit");
   const auto said = grid.getMetadata<openvdb::Int64Metadata>("vox_active_voxels");
   // Other grids hold other voxels: the inside, or a band.
   if (said && grid.isType<openvdb::MaskGrid>() &&
@@ -298,6 +321,8 @@ const std::vector<LintRule>& lintRules() {
       {"frustum", "a transform that is not linear"},
       {"name", "a name that is missing, used twice, or not for Blender or Houdini"},
       {"creator", "a creator that starts with Houdini: Blender turns the object then"},
+      {"no-inside", "warning: a level set with hardly any inside"},
+      {"eevee", "warning: more than 2048 voxels along an axis"},
       {"count", "not the number of voxels that vox convert recorded"},
   };
   return rules;

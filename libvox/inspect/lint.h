@@ -13,6 +13,7 @@ struct LintFinding {
   std::string code;     ///< short name, "no-density"
   std::string grid;     ///< name; "" for the whole file
   std::string message;  ///< the fault and its consequence
+  bool isFault = true;  ///< false: a warning, of something that may be meant
 };
 
 /// A fault that lint looks for, with a short description for help.

@@ -10,6 +10,7 @@
 #include "libvox/voxelize/triangulate.h"
 
 #include <Eigen/Geometry>
+#include <openvdb/tools/Morphology.h>
 
 #include <algorithm>
 #include <array>
@@ -58,10 +59,21 @@ MaskTree voxelsOn(const ReferenceSurface& surface) {
   return voxels;
 }
 
+/// Adds all voxels within a distance (L-inf).
+void widen(MaskTree& voxels, int distance) {
+  openvdb::tools::dilateActiveValues(voxels, distance, openvdb::tools::NN_FACE_EDGE_VERTEX,
+                                     openvdb::tools::IGNORE_TILES);
+}
+
 /// Voxels within 1/2 and the tolerance (L-inf) of the surface.
 MaskTree layerAround(const ReferenceSurface& surface) {
   const double tolerance = surface.tolerance;
   if (tolerance == 0) return voxelsOn(surface);
+  if (tolerance >= 1) {
+    MaskTree layer = voxelsOn(surface);
+    widen(layer, static_cast<int>(std::ceil(tolerance)));
+    return layer;
+  }
   MaskTree layer;
   Accessor accessor(layer);
   const Vec3d reach = Vec3d::Constant(tolerance);  // voxelOf adds the half
@@ -81,9 +93,9 @@ MaskTree layerAround(const ReferenceSurface& surface) {
   return layer;
 }
 
-/// Voxels within about two of the boundary.
-MaskTree rimOf(std::span<const LatticeTriangle> triangles) {
-  constexpr int kWide = 2;
+/// Voxels within about two, and the tolerance, of the boundary.
+MaskTree rimOf(std::span<const LatticeTriangle> triangles, double tolerance) {
+  const int wide = 2 + static_cast<int>(tolerance);
   MaskTree rim;
   Accessor accessor(rim);
   const auto inVoxels = [](const LatticePoint& p) {
@@ -96,7 +108,7 @@ MaskTree rimOf(std::span<const LatticeTriangle> triangles) {
     const int steps = 1 + static_cast<int>(along.cwiseAbs().maxCoeff());
     for (int i = 0; i <= steps; ++i) {
       const Coord at = voxelOf(from + along * i / steps);
-      for (const Coord& voxel : CoordBBox(at.offsetBy(-kWide), at.offsetBy(kWide)))
+      for (const Coord& voxel : CoordBBox(at.offsetBy(-wide), at.offsetBy(wide)))
         accessor.setValueOn(voxel);
     }
   }
@@ -109,7 +121,7 @@ class Space {
   Space(const MaskTree& voxels, const ReferenceSurface& surface,
         std::span<const LatticeTriangle> triangles)
       : layer_(layerAround(surface)),
-        rim_(rimOf(triangles)),
+        rim_(rimOf(triangles, surface.tolerance)),
         voxels_(voxels),
         inLayer_(layer_),
         inRim_(rim_),
@@ -262,6 +274,19 @@ ReferenceSurface referenceSurface(PolygonMesh mesh, double tolerance) {
   surface.points = std::move(mesh.points);
   surface.tolerance = tolerance;
   return surface;
+}
+
+std::optional<int> reachOf(const ReferenceSurface& reference, const ReferenceSurface& other) {
+  const MaskTree voxels = voxelsOn(other);
+  MaskTree layer = voxelsOn(reference);
+  constexpr int kMostReach = 32;
+  for (int reach = 0; reach <= kMostReach; ++reach) {
+    MaskTree left(voxels);
+    left.topologyDifference(layer);
+    if (left.activeVoxelCount() == 0) return reach;
+    widen(layer, 1);
+  }
+  return std::nullopt;
 }
 
 SeparationReport findTunnels(const MaskTree& voxels, const ReferenceSurface& surface,

@@ -25,6 +25,10 @@ struct ReferenceSurface {
 /// The polygons of a mesh, cut into triangles.
 ReferenceSurface referenceSurface(PolygonMesh mesh, double tolerance);
 
+/// The least whole tolerance at which the layer around a reference holds all voxels that another
+/// surface meets. Nothing if it is above 32.
+std::optional<int> reachOf(const ReferenceSurface& reference, const ReferenceSurface& other);
+
 struct SeparationReport {
   std::uint64_t tunnels = 0;        ///< places where the surface is open
   std::optional<VoxelIndex> first;  ///< voxel at such a place with the lowest x, then y, then z
@@ -36,8 +40,8 @@ struct SeparationReport {
 /// from the surface, crosses it an odd number of times and ends as far from it again. (A step that
 /// crosses into a pocket is no tunnel.) A flood that counts crossings modulo 2 looks for such paths
 /// in the layer of voxels around the surface. Steps beside the boundary of an open surface do not
-/// count: the voxels may end a little earlier there. Crossings are decided exactly, on a lattice of
-/// 2^-16 voxels.
+/// count: the voxels may end a little earlier there, by up to 2 voxels and the tolerance. Crossings
+/// are decided exactly, on a lattice of 2^-16 voxels.
 ///
 /// k26: a tunnel is an inactive voxel whose closed cube meets the surface.
 ///

@@ -1,4 +1,4 @@
-// Colours of mesh files, from 0 to 1 or 0 to 255, as linear light.
+// Colours of mesh files, in the range of each file, as linear light.
 
 #include "libvox/io/file_colors.h"
 
@@ -9,20 +9,46 @@
 
 namespace vox {
 
-void FileColors::set(Index element, const Vec3d& values) {
+namespace {
+
+constexpr float kByteRange = 255;
+constexpr float kWordRange = 65535;
+
+}  // namespace
+
+void FileColors::set(Index element, const Vec3d& values, std::size_t line) {
   if (element >= values_.size()) {
     values_.resize(std::size_t{element} + 1, Vec3f::Ones());
     isSet_.resize(values_.size(), false);
   }
-  values_[element] = values.cast<float>();
+  const Vec3f color = values.cast<float>();
+  values_[element] = color;
   isSet_[element] = true;
-  largest_ = std::max(largest_, values_[element].maxCoeff());
+  const float most = color.maxCoeff<Eigen::PropagateNumbers>();
+  largest_ = std::max(largest_, most);
+  for (Above* above : {&aboveOne_, &above255_}) {
+    if (!(most > above->limit)) continue;
+    if (above->values == 0) {
+      above->line = line;
+      above->element = element;
+    }
+    above->values += static_cast<std::uint64_t>((color.array() > above->limit).count());
+  }
 }
 
-std::vector<Vec3f> FileColors::takeLinear(Index count) {
+float FileColors::fullBrightness() const {
+  if (largestOfType_ == 0) return largest_ < 2 ? 1 : kByteRange;
+  if (largest_ <= kByteRange) return kByteRange;
+  return largest_ <= kWordRange ? std::min(kWordRange, static_cast<float>(largestOfType_))
+                                : static_cast<float>(largestOfType_);
+}
+
+std::vector<Vec3f> FileColors::takeLinear(Index count, ReadReport& report) {
   if (values_.empty()) return {};
-  constexpr float kBytes = 255;
-  const float one = largest_ > 1 ? kBytes : 1;
+  const float one = fullBrightness();
+  if (const Above& above = one == 1 ? aboveOne_ : above255_;
+      largestOfType_ == 0 && above.values > 0)
+    report.add(Oddity::kBrightColor, above.line, above.element, above.values);
   const auto linear = [&](float value) {
     const double share = value > 0 ? std::min(value / one, 1.0F) : 0.0F;  // nan becomes 0
     return static_cast<float>(linearFromScreen(share));

@@ -1,11 +1,23 @@
 #pragma once
 
+#include "libvox/io/read_report.h"
 #include "libvox/mesh/polygon_mesh.h"
 
-#include <string>
+#include <cstddef>
 #include <string_view>
+#include <vector>
 
 namespace vox {
+
+/// What a parser tells besides the mesh.
+struct ReadLog {
+  struct PointLine {
+    Index point;
+    std::size_t line;
+  };
+  ReadReport report;                   ///< has the name of the file
+  std::vector<PointLine> undefined{};  ///< lines of the points that are not finite; text only
+};
 
 // One parser per format, for read_mesh.cpp. Each gets the content of a file, and its name for
 // messages. All parsers have in common:
@@ -13,13 +25,14 @@ namespace vox {
 //   - memory is proportional to the content: counts in the file are not trusted;
 //   - time is linear in the content;
 //   - elements in messages are numbered from 0, as in PLY, OFF and OM files.
-// Parsers of binary formats leave some checks to readMesh (index out of range, nan), if they could
-// not give a better message.
+// Points may be NaN or infinite: readMesh checks whether a face uses them. Parsers of binary
+// formats leave some checks to readMesh (index out of range), if they could not give a better
+// message.
 
-PolygonMesh parseObj(std::string_view text, const std::string& fileName);
-PolygonMesh parsePly(std::string_view data, const std::string& fileName);
-PolygonMesh parseOff(std::string_view text, const std::string& fileName);
-PolygonMesh parseStl(std::string_view data, const std::string& fileName);
-PolygonMesh parseOm(std::string_view data, const std::string& fileName);
+PolygonMesh parseObj(std::string_view text, ReadLog& log);
+PolygonMesh parsePly(std::string_view data, ReadLog& log);
+PolygonMesh parseOff(std::string_view text, ReadLog& log);
+PolygonMesh parseStl(std::string_view data, ReadLog& log);
+PolygonMesh parseOm(std::string_view data, ReadLog& log);
 
 }  // namespace vox

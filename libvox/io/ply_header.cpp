@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -38,6 +40,34 @@ constexpr std::array<TypeName, 16> kTypeNames = {{
     {"float64", PlyType::kFloat64},
 }};
 
+/// Names of colours. Of several in one element the lowest rank counts.
+struct ColorName {
+  std::string_view name;
+  PlyRole role;
+  int rank;
+};
+
+constexpr std::array<ColorName, 12> kColorNames = {{
+    {"red", PlyRole::kRed, 0},
+    {"green", PlyRole::kGreen, 0},
+    {"blue", PlyRole::kBlue, 0},
+    {"r", PlyRole::kRed, 1},
+    {"g", PlyRole::kGreen, 1},
+    {"b", PlyRole::kBlue, 1},
+    {"diffuse_red", PlyRole::kRed, 2},
+    {"diffuse_green", PlyRole::kGreen, 2},
+    {"diffuse_blue", PlyRole::kBlue, 2},
+    {"diffuse_r", PlyRole::kRed, 3},
+    {"diffuse_g", PlyRole::kGreen, 3},
+    {"diffuse_b", PlyRole::kBlue, 3},
+}};
+
+std::string lowerCase(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
 class HeaderParser {
  public:
   explicit HeaderParser(TextScanner& scan) : scan_(scan) {}
@@ -57,7 +87,9 @@ class HeaderParser {
   void readFormat();
   void readElement();
   void readProperty();
-  PlyRole roleOf(const PlyProperty& property) const;
+  void setRole(PlyProperty& property) const;
+  void addProperty(PlyProperty property);
+  void noteColor(PlyElement& element) const;
   PlyType typeNamed(std::string_view name) const;
   std::string_view word(const char* what);
   void endLine();
@@ -133,36 +165,55 @@ void HeaderParser::readProperty() {
     property.type = typeNamed(type);
   }
   property.name = word("a property name");
-  property.role = roleOf(property);
-
-  auto& properties = header_.elements.back().properties;
-  for (const PlyProperty& other : properties)
-    if (property.role != PlyRole::kIgnored && other.role == property.role)
-      scan_.fail("second property " + quote(property.name));
-  properties.push_back(std::move(property));
-  const auto has = [&](PlyRole role) {
-    return std::any_of(properties.begin(), properties.end(),
-                       [&](const PlyProperty& p) { return p.role == role; });
-  };
-  header_.elements.back().hasColor =
-      has(PlyRole::kRed) && has(PlyRole::kGreen) && has(PlyRole::kBlue);
+  setRole(property);
+  addProperty(std::move(property));
+  noteColor(header_.elements.back());
 }
 
-PlyRole HeaderParser::roleOf(const PlyProperty& property) const {
+// Of several properties of one role the one with the most usual name keeps it.
+void HeaderParser::addProperty(PlyProperty property) {
+  auto& properties = header_.elements.back().properties;
+  for (PlyProperty& other : properties) {
+    if (property.role == PlyRole::kIgnored || other.role != property.role) continue;
+    if (other.nameRank == property.nameRank) scan_.fail("second property " + quote(property.name));
+    (other.nameRank < property.nameRank ? property : other).role = PlyRole::kIgnored;
+  }
+  properties.push_back(std::move(property));
+}
+
+void HeaderParser::noteColor(PlyElement& element) const {
+  int channels = 0;
+  bool isUsual = true;
+  for (const PlyProperty& property : element.properties) {
+    if (property.role < PlyRole::kRed || property.role > PlyRole::kBlue) continue;
+    ++channels;
+    const double largest = largestOf(property.type);
+    isUsual = isUsual && property.nameRank == 0 &&
+              (largest == 0 || largest == largestOf(PlyType::kUint8));
+  }
+  element.hasColor = channels == 3;
+  if (element.hasColor && !isUsual && element.colorLine == 0) element.colorLine = scan_.line();
+}
+
+void HeaderParser::setRole(PlyProperty& property) const {
   const PlyElement& element = header_.elements.back();
   const std::string& name = property.name;
   if (property.isList) {
-    if (name != "vertex_indices" && name != "vertex_index") return PlyRole::kIgnored;
-    if (element.name == "face") return PlyRole::kFace;
-    return element.name == "tristrips" ? PlyRole::kStrips : PlyRole::kIgnored;
+    if (name != "vertex_indices" && name != "vertex_index") return;
+    if (element.name == "face") property.role = PlyRole::kFace;
+    if (element.name == "tristrips") property.role = PlyRole::kStrips;
+    return;
   }
-  if (element.isVertex || element.isFace) {
-    if (name == "red") return PlyRole::kRed;
-    if (name == "green") return PlyRole::kGreen;
-    if (name == "blue") return PlyRole::kBlue;
-  }
-  if (!element.isVertex || name.size() != 1 || name < "x" || name > "z") return PlyRole::kIgnored;
-  return name == "x" ? PlyRole::kX : name == "y" ? PlyRole::kY : PlyRole::kZ;
+  if (!element.isVertex && !element.isFace) return;
+  for (const ColorName& color : kColorNames)
+    if (color.name == lowerCase(name)) {
+      property.role = color.role;
+      property.nameRank = color.rank;
+    }
+  if (!element.isVertex) return;
+  if (name == "x") property.role = PlyRole::kX;
+  if (name == "y") property.role = PlyRole::kY;
+  if (name == "z") property.role = PlyRole::kZ;
 }
 
 PlyType HeaderParser::typeNamed(std::string_view name) const {
@@ -197,7 +248,9 @@ void HeaderParser::checkIsMesh() const {
     }
   if (axes != 3) scan_.fail("the header has no element vertex with properties x, y and z");
   if (!hasFaces)
-    scan_.fail("no faces: the header has no element face with a list property vertex_indices");
+    scan_.fail(
+        "no faces: the header has no element face with a list property vertex_indices; "
+        "a cloud of points has no surface");
 }
 
 }  // namespace
@@ -220,25 +273,25 @@ std::size_t sizeOf(PlyType type) {
   return 1;
 }
 
-double brightest(PlyType type) {
+double largestOf(PlyType type) {
   switch (type) {
     case PlyType::kInt8:
-      return 0x7f;
+      return std::numeric_limits<std::int8_t>::max();
     case PlyType::kUint8:
-      return 0xff;
+      return std::numeric_limits<std::uint8_t>::max();
     case PlyType::kInt16:
-      return 0x7fff;
+      return std::numeric_limits<std::int16_t>::max();
     case PlyType::kUint16:
-      return 0xffff;
+      return std::numeric_limits<std::uint16_t>::max();
     case PlyType::kInt32:
-      return 0x7fffffff;
+      return std::numeric_limits<std::int32_t>::max();
     case PlyType::kUint32:
-      return 0xffffffff;
+      return std::numeric_limits<std::uint32_t>::max();
     case PlyType::kFloat32:
     case PlyType::kFloat64:
-      return 1;
+      return 0;
   }
-  return 1;
+  return 0;
 }
 
 PlyHeader parsePlyHeader(TextScanner& scan) {

@@ -15,8 +15,8 @@ enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, 
 /// Size in bytes.
 std::size_t sizeOf(PlyType type);
 
-/// Value of full brightness in a colour of this type: the largest integer, or 1.
-double brightest(PlyType type);
+/// The largest integer of a type; 0 of floats.
+double largestOf(PlyType type);
 
 /// Meaning of a property for the reader.
 enum class PlyRole { kIgnored, kX, kY, kZ, kRed, kGreen, kBlue, kFace, kStrips };
@@ -27,6 +27,7 @@ struct PlyProperty {
   bool isList = false;
   PlyType countType = PlyType::kUint8;
   PlyRole role = PlyRole::kIgnored;
+  int nameRank = 0;  ///< of a colour; 0: the usual name
 };
 
 struct PlyElement {
@@ -34,7 +35,8 @@ struct PlyElement {
   std::uint64_t count = 0;
   bool isVertex = false;
   bool isFace = false;
-  bool hasColor = false;  ///< has red, green and blue
+  bool hasColor = false;      ///< has red, green and blue
+  std::size_t colorLine = 0;  ///< of the header, if their names or types are unusual
   std::vector<PlyProperty> properties;
 };
 

@@ -12,6 +12,8 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace vox {
 
@@ -19,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Parser = PolygonMesh (*)(std::string_view, const std::string&);
+using Parser = PolygonMesh (*)(std::string_view, ReadLog&);
 
 struct Format {
   std::string_view extension;
@@ -42,23 +44,53 @@ Parser parserFor(const fs::path& file) {
   return format == kFormats.end() ? nullptr : format->parse;
 }
 
-void checkCounts(const PolygonMesh& mesh, const std::string& fileName) {
-  if (mesh.faceOffsets.size() < 2)
-    throw InputError(fileName + ": no faces; a mesh needs at least one");
+void checkCounts(const PolygonMesh& mesh, const ReadReport& report) {
+  const std::string& fileName = report.file;
+  if (mesh.faceOffsets.size() < 2) {
+    const std::string lost = lossText(report);
+    throw InputError(fileName + ": no faces" +
+                     (!lost.empty() ? ": " + lost
+                      : mesh.points.empty()
+                          ? "; a mesh needs at least one"
+                          : ": the file holds only points; a surface needs faces"));
+  }
   const std::size_t largest =
       std::max({mesh.points.size(), mesh.faceVertices.size(), mesh.faceOffsets.size()});
   if (largest >= kNone)
     throw InputError(fileName + ": more than 2^32 - 2 vertices or corners; split the model");
 }
 
-void checkPoints(const PolygonMesh& mesh, const std::string& fileName) {
+std::string placeOf(Index point, const ReadLog& log) {
+  const auto found = std::find_if(log.undefined.begin(), log.undefined.end(),
+                                  [&](const ReadLog::PointLine& at) { return at.point == point; });
+  return log.report.file + ":" +
+         (found == log.undefined.end() ? "" : std::to_string(found->line) + ":");
+}
+
+/// Refuses points beyond the limit, and those at NaN or infinity that faces use. The others move
+/// to 0.
+void settlePoints(PolygonMesh& mesh, ReadLog& log) {
+  std::vector<Index> undefined;
   for (Index v = 0; v < mesh.pointCount(); ++v) {
     const double size = mesh.points[v].cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (size <= kMaxCoordinate) continue;
-    throw InputError(fileName + ": vertex " + std::to_string(v) +
-                     (std::isfinite(size)
-                          ? " has a coordinate larger than 1e15; scale the model down"
-                          : " has a coordinate that is not a finite number"));
+    if (std::isfinite(size))
+      throw InputError(log.report.file + ": vertex " + std::to_string(v) +
+                       " has a coordinate larger than 1e15; scale the model down");
+    undefined.push_back(v);
+  }
+  if (undefined.empty()) return;
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const Index v : mesh.faceVertices) used[v] = true;
+  std::size_t next = 0;
+  for (const Index v : undefined) {
+    if (used[v])
+      throw InputError(placeOf(v, log) + " vertex " + std::to_string(v) +
+                       " has a coordinate that is not a finite number, and a face uses it");
+    while (next < log.undefined.size() && log.undefined[next].point < v) ++next;
+    const bool hasLine = next < log.undefined.size();
+    log.report.add(Oddity::kUndefinedPoint, hasLine ? log.undefined[next].line : 0, v);
+    mesh.points[v].setZero();
   }
 }
 
@@ -77,10 +109,15 @@ void checkFaces(const PolygonMesh& mesh, const std::string& fileName) {
 
 }  // namespace
 
-PolygonMesh readMesh(const fs::path& file) {
+PolygonMesh readMesh(const fs::path& file, ReadReport& report) {
   requireInputFile(file);
   requireMeshExtension(file);
-  return parseMesh(file, contentsOf(file));
+  return parseMesh(file, contentsOf(file), report);
+}
+
+PolygonMesh readMesh(const fs::path& file) {
+  ReadReport report;
+  return readMesh(file, report);
 }
 
 void requireMeshExtension(const fs::path& file) {
@@ -89,14 +126,20 @@ void requireMeshExtension(const fs::path& file) {
                      "; a mesh is .obj, .ply, .off, .stl or .om");
 }
 
-PolygonMesh parseMesh(const fs::path& file, std::string_view content) {
-  const std::string fileName = file.string();
+PolygonMesh parseMesh(const fs::path& file, std::string_view content, ReadReport& report) {
   requireMeshExtension(file);
-  PolygonMesh mesh = parserFor(file)(content, fileName);
-  checkCounts(mesh, fileName);
-  checkPoints(mesh, fileName);
-  checkFaces(mesh, fileName);
+  ReadLog log{.report = {.file = file.string()}};
+  PolygonMesh mesh = parserFor(file)(content, log);
+  checkCounts(mesh, log.report);
+  checkFaces(mesh, log.report.file);
+  settlePoints(mesh, log);
+  report = std::move(log.report);
   return mesh;
+}
+
+PolygonMesh parseMesh(const fs::path& file, std::string_view content) {
+  ReadReport report;
+  return parseMesh(file, content, report);
 }
 
 }  // namespace vox

@@ -1,35 +1,40 @@
 // Wavefront OBJ, polygons only.
 //
-// Source: Wavefront Advanced Visualizer manual, appendix B1 "Object files", and the vertex colours
-// that many programs append to v lines.
+// Source: Wavefront Advanced Visualizer manual, appendix B1 "Object files"; the vertex colours that
+// many programs append to v lines; and those that ZBrush writes into comments:
+//   #MRGB MMRRGGBBMMRRGGBB...   mask and colour of each vertex, from the first on, hexadecimal
 
 #include "libvox/core/error.h"
 #include "libvox/io/file_colors.h"
 #include "libvox/io/mesh_formats.h"
 #include "libvox/io/text_scanner.h"
 
+#include <algorithm>
+#include <charconv>
+#include <string>
 #include <utility>
 
 namespace vox {
 
 namespace {
 
+constexpr std::string_view kColorComment = "#MRGB";
+
 class ObjParser {
  public:
-  ObjParser(std::string_view text, const std::string& fileName)
-      : scan_(text, fileName, {.hashComments = true, .continuations = true}) {}
+  ObjParser(std::string_view text, ReadLog& log)
+      : scan_(text, log.report.file, {.hashComments = true, .continuations = true}), log_(log) {}
 
   PolygonMesh parse() {
-    do {
-      const std::string_view keyword = scan_.token();
-      if (keyword == "v") {
-        readPoint();
-      } else if (keyword == "f" || keyword == "fo") {
-        readFace();
-      }
-    } while (scan_.nextLine());
+    do readLine();
+    while (scan_.nextLine());
     checkForwardReferences();
-    mesh_.pointColors = colors_.takeLinear(mesh_.pointCount());
+    if (mesh_.faceCount() == 0) explainNoFaces();
+    if (scan_.gluedComments() > 0)
+      log_.report.add(Oddity::kGluedComment, scan_.lineOfGluedComment(), ReadReport::kNoElement,
+                      scan_.gluedComments());
+    FileColors& colors = colors_.empty() ? commentColors_ : colors_;
+    mesh_.pointColors = colors.takeLinear(mesh_.pointCount(), log_.report);
     return std::move(mesh_);
   }
 
@@ -40,17 +45,79 @@ class ObjParser {
     std::size_t line;
   };
 
+  void readLine();
+  void readName();
   void readPoint();
   void readFace();
+  void readCommentColors();
+  void explainNoFaces() const;
   Index readCorner(std::string_view corner);
   void checkTextureAndNormal(std::string_view indices) const;
   void checkForwardReferences() const;
 
   TextScanner scan_;
+  ReadLog& log_;
   PolygonMesh mesh_;
   FileColors colors_;
+  FileColors commentColors_;
+  Index commentColorCount_ = 0;
+  std::uint64_t lines_ = 0;
   std::vector<ForwardReference> forward_;  // only those with a larger point than all before
 };
+
+void ObjParser::readLine() {
+  const std::string_view keyword = scan_.token();
+  const auto is = [&](auto... words) { return ((keyword == words) || ...); };
+  if (is("v")) {
+    readPoint();
+  } else if (is("f", "fo")) {
+    readFace();
+  } else if (is("mtllib", "usemtl", "o", "g")) {
+    readName();
+  } else if (is("curv", "curv2", "surf")) {
+    log_.report.add(Oddity::kFreeForm, scan_.line());
+  } else if (is("l")) {
+    ++lines_;
+  } else if (keyword.empty() && scan_.rest().starts_with(kColorComment)) {
+    readCommentColors();
+  }
+}
+
+// Names may be paths of Windows, so a backslash at the end joins nothing.
+void ObjParser::readName() {
+  std::string_view name = scan_.restOfLine();
+  if (name.ends_with('\\')) log_.report.add(Oddity::kBackslashName, scan_.line());
+}
+
+void ObjParser::readCommentColors() {
+  constexpr std::size_t kDigits = 8;
+  const std::size_t line = scan_.line();
+  std::string_view digits = scan_.restOfLine().substr(kColorComment.size());
+  digits.remove_prefix(std::min(digits.find_first_not_of(" \t"), digits.size()));
+  digits = digits.substr(0, digits.find_last_not_of(" \t") + 1);
+  const bool isHex = digits.find_first_not_of("0123456789abcdefABCDEF") == digits.npos;
+  if (!isHex || digits.size() % kDigits != 0) {
+    log_.report.add(Oddity::kDamagedColors, line);
+    return;
+  }
+  commentColors_.setIntegers(255);
+  for (; !digits.empty(); digits.remove_prefix(kDigits)) {
+    unsigned color = 0;
+    std::from_chars(digits.data() + 2, digits.data() + kDigits, color, 16);
+    commentColors_.set(commentColorCount_++,
+                       Vec3d(color >> 16U, color >> 8U & 0xFFU, color & 0xFFU), line);
+    log_.report.add(Oddity::kForeignColor, line);
+  }
+}
+
+void ObjParser::explainNoFaces() const {
+  const auto fail = [&](const char* what) {
+    throw InputError(log_.report.file + ": no faces: the file holds only " + what);
+  };
+  if (log_.report[Oddity::kFreeForm].count > 0)
+    fail("free-form curves and surfaces (NURBS); convert them to polygons first");
+  if (lines_ > 0) fail("lines; a surface needs faces");
+}
 
 // Line "v x y z", then nothing, a weight, a colour, or a colour with a fourth number.
 void ObjParser::readPoint() {
@@ -68,7 +135,8 @@ void ObjParser::readPoint() {
   if (count != 3 && count != 4 && count != 6 && count != 7)
     scan_.fail("vertex with " + std::to_string(count) +
                " numbers; expected x y z, optionally a weight or a colour");
-  if (count >= 6) colors_.set(mesh_.pointCount(), color);
+  if (count >= 6) colors_.set(mesh_.pointCount(), color, scan_.line());
+  if (!point.allFinite()) log_.undefined.push_back({mesh_.pointCount(), scan_.line()});
   mesh_.points.push_back(point);
 }
 
@@ -79,8 +147,11 @@ void ObjParser::readFace() {
     mesh_.faceVertices.push_back(readCorner(corner));
 
   const std::size_t corners = mesh_.faceVertices.size() - first;
-  if (corners < 3)
-    scan_.failAt(line, "face with " + std::to_string(corners) + " corners; it needs at least 3");
+  if (corners < 3) {
+    mesh_.faceVertices.resize(first);
+    log_.report.add(Oddity::kShortFace, line);
+    return;
+  }
   mesh_.faceOffsets.push_back(mesh_.cornerCount());
 }
 
@@ -127,8 +198,8 @@ void ObjParser::checkForwardReferences() const {
 
 }  // namespace
 
-PolygonMesh parseObj(std::string_view text, const std::string& fileName) {
-  return ObjParser(text, fileName).parse();
+PolygonMesh parseObj(std::string_view text, ReadLog& log) {
+  return ObjParser(text, log).parse();
 }
 
 }  // namespace vox

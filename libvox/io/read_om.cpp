@@ -154,8 +154,8 @@ bool readByOpenMesh(std::string file, Importer& importer) {
 
 class FaceBuilder {
  public:
-  FaceBuilder(Importer& imported, const std::string& fileName)
-      : imported_(imported), fileName_(fileName), used_(imported.halfedges.size()) {
+  FaceBuilder(Importer& imported, ReadReport& report)
+      : imported_(imported), report_(report), used_(imported.halfedges.size()) {
     mesh_.points = std::move(imported.points);
   }
 
@@ -181,6 +181,17 @@ class FaceBuilder {
   void addPolygon(std::size_t f) {
     for (std::size_t i = imported_.offsets[f]; i < imported_.offsets[f + 1]; ++i)
       addVertex(f, imported_.polygonVertices[i]);
+    endFace(f);
+  }
+
+  // Drops the face if it is too short.
+  void endFace(std::size_t f) {
+    const Index begin = mesh_.faceOffsets.back();
+    if (mesh_.cornerCount() < begin + 3) {
+      mesh_.faceVertices.resize(begin);
+      report_.add(Oddity::kShortFace, 0, f);
+      return;
+    }
     mesh_.faceOffsets.push_back(mesh_.cornerCount());
   }
 
@@ -200,29 +211,30 @@ class FaceBuilder {
       addVertex(f, halfedge.toVertex);
       h = halfedge.next;
     } while (h != first);
-    mesh_.faceOffsets.push_back(mesh_.cornerCount());
+    endFace(f);
   }
 
   [[noreturn]] void fail(std::size_t f, const std::string& what) const {
-    throw InputError(fileName_ + ": face " + std::to_string(f) + " " + what);
+    throw InputError(report_.file + ": face " + std::to_string(f) + " " + what);
   }
 
   const Importer& imported_;
-  const std::string& fileName_;
+  ReadReport& report_;
   std::vector<bool> used_;
   PolygonMesh mesh_;
 };
 
 }  // namespace
 
-PolygonMesh parseOm(std::string_view data, const std::string& fileName) {
+PolygonMesh parseOm(std::string_view data, ReadLog& log) {
+  const std::string& fileName = log.report.file;
   OmMesh file = omMeshOnly(data, fileName);
   Importer imported;
   const bool complete = readByOpenMesh(std::move(file.bytes), imported);
   if (!complete || imported.points.size() != file.vertexCount ||
       imported.n_faces() != file.faceCount)
     throw InputError(fileName + ": OpenMesh cannot read it; save it as PLY or OBJ");
-  return FaceBuilder(imported, fileName).build();
+  return FaceBuilder(imported, log.report).build();
 }
 
 }  // namespace vox

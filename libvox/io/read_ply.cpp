@@ -36,6 +36,8 @@ class TextNumbers {
   TextNumbers(TextScanner& scan, const Place& place) : scan_(scan), place_(place) {}
 
   double next(PlyType) { return scan_.number(nextToken()); }
+  /// May be NaN or infinite.
+  double nextCoordinate(PlyType) { return scan_.coordinate(nextToken()); }
   void skip(PlyType, std::uint64_t count) {
     for (; count > 0; --count) nextToken();
   }
@@ -45,6 +47,7 @@ class TextNumbers {
     scan_.nextLine();
   }
   [[noreturn]] void fail(const std::string& what) const { scan_.fail(what); }
+  std::size_t line() const { return scan_.line(); }
 
  private:
   std::string_view nextToken() {
@@ -87,6 +90,7 @@ class BinaryNumbers {
     }
     return 0;
   }
+  double nextCoordinate(PlyType type) { return next(type); }
   void skip(PlyType type, std::uint64_t count) {
     const std::size_t size = sizeOf(type);
     if (count > data_.size() / size) fail(place_.truncated());
@@ -96,6 +100,7 @@ class BinaryNumbers {
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(fileName_ + ": " + what);
   }
+  std::size_t line() const { return 0; }
 
  private:
   std::string_view data_;
@@ -108,25 +113,28 @@ class BinaryNumbers {
 template <typename Numbers>
 class BodyParser {
  public:
-  BodyParser(Numbers numbers, const PlyHeader& header, Place& place)
-      : numbers_(numbers), header_(header), place_(place) {}
+  BodyParser(Numbers numbers, const PlyHeader& header, Place& place, ReadLog& log)
+      : numbers_(numbers), header_(header), place_(place), log_(log) {}
 
   PolygonMesh parse() {
     for (const PlyElement& element : header_.elements) {
       if (element.properties.empty()) continue;  // such elements have no bytes
       place_ = {&element, 0};
+      prepareColors(element);
       for (; place_.index < element.count; ++place_.index) {
         readElement(element);
         numbers_.endElement();
       }
     }
-    mesh_.pointColors = pointColors_.takeLinear(mesh_.pointCount());
-    mesh_.faceColors = faceColors_.takeLinear(mesh_.faceCount());
+    mesh_.pointColors = pointColors_.takeLinear(mesh_.pointCount(), log_.report);
+    mesh_.faceColors = faceColors_.takeLinear(mesh_.faceCount(), log_.report);
     return std::move(mesh_);
   }
 
  private:
+  void prepareColors(const PlyElement& element);
   void readElement(const PlyElement& element);
+  double readColor(PlyType type);
   std::uint64_t readCount(PlyType type);
   std::int64_t readInteger(PlyType type);
   Index pointOf(std::int64_t index);
@@ -136,13 +144,40 @@ class BodyParser {
   Numbers numbers_;
   const PlyHeader& header_;
   Place& place_;
+  ReadLog& log_;
   PolygonMesh mesh_;
+  bool keepsType_ = true;  // colours of the element have one type, which gives their range
   FileColors pointColors_;
   FileColors faceColors_;
 };
 
 template <typename Numbers>
+void BodyParser<Numbers>::prepareColors(const PlyElement& element) {
+  if (!element.hasColor) return;
+  if (element.colorLine > 0) log_.report.add(Oddity::kForeignColor, element.colorLine);
+  std::vector<double> largest;
+  for (const PlyProperty& property : element.properties)
+    if (property.role >= PlyRole::kRed && property.role <= PlyRole::kBlue)
+      largest.push_back(largestOf(property.type));
+  keepsType_ = largest[0] == largest[1] && largest[0] == largest[2];
+  if (!keepsType_) return;
+  if (element.isVertex) pointColors_.setIntegers(largest[0]);
+  if (element.isFace) faceColors_.setIntegers(largest[0]);
+}
+
+// A colour value in the range of its type, or from 0 to 1 if the three types differ.
+template <typename Numbers>
+double BodyParser<Numbers>::readColor(PlyType type) {
+  const double value = numbers_.next(type);
+  const double largest = largestOf(type);
+  if (!keepsType_) return largest > 0 ? value / largest : value;
+  constexpr double kTurn = 256;  // a signed byte stands for an unsigned one
+  return type == PlyType::kInt8 && value < 0 ? value + kTurn : value;
+}
+
+template <typename Numbers>
 void BodyParser<Numbers>::readElement(const PlyElement& element) {
+  const Index facesBefore = mesh_.faceCount();
   Vec3d point = Vec3d::Zero();
   Vec3d color = Vec3d::Zero();
   for (const PlyProperty& property : element.properties) {
@@ -160,24 +195,26 @@ void BodyParser<Numbers>::readElement(const PlyElement& element) {
       case PlyRole::kGreen:
       case PlyRole::kBlue:
         color[static_cast<int>(property.role) - static_cast<int>(PlyRole::kRed)] =
-            numbers_.next(property.type) / brightest(property.type);
+            readColor(property.type);
         break;
       case PlyRole::kX:
       case PlyRole::kY:
       case PlyRole::kZ: {
-        const double value = numbers_.next(property.type);
-        if (!(std::abs(value) <= kMaxCoordinate))
-          numbers_.fail(place_.name() + ": coordinate " + property.name + " is " +
-                        (std::isfinite(value) ? "larger than 1e15; scale the model down"
-                                              : "not a finite number"));
+        const double value = numbers_.nextCoordinate(property.type);
+        if (std::isfinite(value) && std::abs(value) > kMaxCoordinate)
+          numbers_.fail(place_.name() + ": coordinate " + property.name +
+                        " is larger than 1e15; scale the model down");
         point[static_cast<int>(property.role) - static_cast<int>(PlyRole::kX)] = value;
       }
     }
   }
-  if (element.hasColor && element.isVertex) pointColors_.set(mesh_.pointCount(), color);
+  if (element.hasColor && element.isVertex)
+    pointColors_.set(mesh_.pointCount(), color, numbers_.line());
+  if (element.isVertex && !point.allFinite() && numbers_.line() > 0)
+    log_.undefined.push_back({mesh_.pointCount(), numbers_.line()});
   if (element.isVertex) mesh_.points.push_back(point);
-  if (element.hasColor && element.isFace && mesh_.faceCount() > 0)
-    faceColors_.set(mesh_.faceCount() - 1, color);
+  if (element.hasColor && element.isFace && mesh_.faceCount() > facesBefore)
+    faceColors_.set(mesh_.faceCount() - 1, color, numbers_.line());
 }
 
 template <typename Numbers>
@@ -206,11 +243,14 @@ Index BodyParser<Numbers>::pointOf(std::int64_t index) {
 template <typename Numbers>
 void BodyParser<Numbers>::readFace(const PlyProperty& list) {
   const std::uint64_t corners = readCount(list.countType);
-  if (corners < 3)
-    numbers_.fail(place_.name() + " has " + std::to_string(corners) +
-                  " corners; it needs at least 3");
+  const std::size_t first = mesh_.faceVertices.size();
   for (std::uint64_t i = 0; i < corners; ++i)
     mesh_.faceVertices.push_back(pointOf(readInteger(list.type)));
+  if (corners < 3) {
+    mesh_.faceVertices.resize(first);
+    log_.report.add(Oddity::kShortFace, numbers_.line(), place_.index);
+    return;
+  }
   mesh_.faceOffsets.push_back(mesh_.cornerCount());
 }
 
@@ -235,13 +275,14 @@ void BodyParser<Numbers>::readStrips(const PlyProperty& list) {
 
 }  // namespace
 
-PolygonMesh parsePly(std::string_view data, const std::string& fileName) {
+PolygonMesh parsePly(std::string_view data, ReadLog& log) {
+  const std::string& fileName = log.report.file;
   TextScanner scan(data, fileName, {});
   const PlyHeader header = parsePlyHeader(scan);
   Place place;
-  if (!header.binaryOrder) return BodyParser(TextNumbers(scan, place), header, place).parse();
-  return BodyParser(BinaryNumbers(scan.rest(), *header.binaryOrder, fileName, place), header, place)
-      .parse();
+  if (!header.binaryOrder) return BodyParser(TextNumbers(scan, place), header, place, log).parse();
+  const BinaryNumbers numbers(scan.rest(), *header.binaryOrder, fileName, place);
+  return BodyParser(numbers, header, place, log).parse();
 }
 
 }  // namespace vox

@@ -1,10 +1,15 @@
 // STL, text and binary. Both store triangles without shared points; equal positions become one
 // point.
 //
-// Source: 3D Systems, "StereoLithography Interface Specification", 1989.
+// Source: 3D Systems, "StereoLithography Interface Specification", 1989. Colours in the attribute
+// of a binary facet, 5 bits each, as two programs write them:
+//   Magics: the header has COLOR=rgba, the colour of the whole; a facet has its own if bit 15 is 0,
+//           red in the lowest bits
+//   VisCAM, SolidView: a facet has a colour if bit 15 is 1, blue in the lowest bits
 
 #include "libvox/core/error.h"
 #include "libvox/io/byte_order.h"
+#include "libvox/io/file_colors.h"
 #include "libvox/io/mesh_formats.h"
 #include "libvox/io/text_scanner.h"
 
@@ -71,30 +76,75 @@ std::uint64_t binaryTriangleCount(std::string_view data) {
   return loadNumber<std::uint32_t>(data.data() + kStlHeaderBytes - 4, std::endian::little);
 }
 
-// Whether the content has exactly the size that a binary header gives. (The first word decides
-// nothing: many binary files start with "solid".)
+// Whether the content has the size that a binary header gives, or more. (The first word decides
+// nothing: many binary files start with "solid". Of a text, the size would be that of more than
+// 500 million facets.)
 bool isBinary(std::string_view data) {
-  return data.size() >= kStlHeaderBytes &&
-         data.size() == kStlHeaderBytes + kFacetBytes * binaryTriangleCount(data);
+  if (data.size() < kStlHeaderBytes) return false;
+  const std::uint64_t count = binaryTriangleCount(data);
+  const std::uint64_t size = kStlHeaderBytes + kFacetBytes * count;
+  return data.size() == size || (count > 0 && data.size() > size);
 }
 
-PolygonMesh parseBinary(std::string_view data, const std::string& fileName) {
+// The colours of the facets of a binary file.
+class FacetColors {
+ public:
+  explicit FacetColors(std::string_view header) {
+    constexpr std::string_view kKey = "COLOR=";
+    const std::size_t key = header.find(kKey);
+    if (key == header.npos || key + kKey.size() + 3 > header.size()) return;
+    isMagics_ = true;
+    for (std::size_t i = 0; i < 3; ++i)
+      whole_[static_cast<int>(i)] =
+          static_cast<double>(static_cast<unsigned char>(header[key + kKey.size() + i])) / 255;
+  }
+
+  void set(Index face, std::uint16_t attribute) {
+    const bool high = (attribute & 0x8000U) != 0;
+    const Vec3d fromLowest(attribute & 31U, attribute >> 5U & 31U, attribute >> 10U & 31U);
+    if (isMagics_) {
+      colors_.set(face, high ? whole_ : Vec3d(fromLowest / 31));
+    } else if (high) {
+      colors_.set(face, fromLowest.reverse() / 31);
+    }
+  }
+
+  std::vector<Vec3f> take(Index faceCount, ReadReport& report) {
+    if (!colors_.empty()) report.add(Oddity::kForeignColor, 0);
+    return colors_.takeLinear(faceCount, report);
+  }
+
+ private:
+  bool isMagics_ = false;
+  Vec3d whole_ = Vec3d::Ones();
+  FileColors colors_;
+};
+
+PolygonMesh parseBinary(std::string_view data, ReadReport& report) {
   PolygonMesh mesh;
   PointWelder welder(mesh.points);
+  FacetColors colors(data.substr(0, kStlHeaderBytes - 4));
   const std::uint64_t count = binaryTriangleCount(data);
   for (std::uint64_t f = 0; f < count; ++f) {
     const char* at = data.data() + kStlHeaderBytes + kFacetBytes * f + 12;  // skips the normal
-    for (int corner = 0; corner < 3; ++corner) {
-      Vec3d position;
+    std::array<Vec3d, 3> positions;
+    bool isFinite = true;  // nan, unequal to itself, could not be welded
+    for (Vec3d& position : positions) {
       for (int axis = 0; axis < 3; ++axis, at += 4)
         position[axis] = static_cast<double>(loadNumber<float>(at, std::endian::little));
-      if (!position.allFinite())  // nan, unequal to itself, could not be welded
-        throw InputError(fileName + ": triangle " + std::to_string(f) +
-                         " has a coordinate that is not a finite number");
-      mesh.faceVertices.push_back(welder.indexOf(position));
+      isFinite = isFinite && position.allFinite();
     }
+    if (!isFinite) {
+      report.add(Oddity::kUndefinedFacet, 0, f);
+      continue;
+    }
+    colors.set(mesh.faceCount(), loadNumber<std::uint16_t>(at, std::endian::little));
+    for (const Vec3d& position : positions) mesh.faceVertices.push_back(welder.indexOf(position));
     mesh.faceOffsets.push_back(mesh.cornerCount());
   }
+  mesh.faceColors = colors.take(mesh.faceCount(), report);
+  if (const std::size_t rest = data.size() - kStlHeaderBytes - kFacetBytes * count; rest > 0)
+    report.add(Oddity::kTrailingBytes, 0, ReadReport::kNoElement, rest);
   return mesh;
 }
 
@@ -105,7 +155,8 @@ bool sameWord(std::string_view token, std::string_view lowerCase) {
 
 class TextParser {
  public:
-  TextParser(std::string_view text, const std::string& fileName) : scan_(text, fileName, {}) {}
+  TextParser(std::string_view text, ReadReport& report)
+      : scan_(text, report.file, {}), report_(report) {}
 
   bool startsWithSolid() { return sameWord(scan_.tokenOnAnyLine(), "solid"); }
 
@@ -113,7 +164,11 @@ class TextParser {
   PolygonMesh parse() {
     readSolid();
     for (auto token = scan_.tokenOnAnyLine(); !token.empty(); token = scan_.tokenOnAnyLine()) {
-      if (!sameWord(token, "solid")) failExpected("solid", token);
+      if (!sameWord(token, "solid")) {
+        report_.add(Oddity::kTrailingBytes, scan_.line(), ReadReport::kNoElement,
+                    token.size() + scan_.rest().size());
+        break;
+      }
       readSolid();
     }
     return std::move(mesh_);
@@ -128,8 +183,10 @@ class TextParser {
   [[noreturn]] void failExpected(std::string_view keyword, std::string_view token) const;
 
   TextScanner scan_;
+  ReadReport& report_;
   PolygonMesh mesh_;
   PointWelder welder_{mesh_.points};
+  std::vector<Vec3d> facet_;  // positions of the facet that is being read
 };
 
 void TextParser::readSolid() {
@@ -147,7 +204,7 @@ void TextParser::readSolid() {
 // used; they are often nan.
 void TextParser::readFacet() {
   const std::size_t line = scan_.line();
-  const std::size_t first = mesh_.faceVertices.size();
+  facet_.clear();
   expect("normal");
   for (int axis = 0; axis < 3; ++axis) next("a normal");
   expect("outer");
@@ -159,16 +216,18 @@ void TextParser::readFacet() {
   }
   expect("endfacet");
 
-  const std::size_t corners = mesh_.faceVertices.size() - first;
-  if (corners < 3)
-    scan_.failAt(line, "facet with " + std::to_string(corners) + " corners; it needs at least 3");
+  const auto isFinite = [](const Vec3d& position) { return position.allFinite(); };
+  if (!std::all_of(facet_.begin(), facet_.end(), isFinite))
+    return report_.add(Oddity::kUndefinedFacet, line);
+  if (facet_.size() < 3) return report_.add(Oddity::kShortFace, line);
+  for (const Vec3d& position : facet_) mesh_.faceVertices.push_back(welder_.indexOf(position));
   mesh_.faceOffsets.push_back(mesh_.cornerCount());
 }
 
 void TextParser::readVertex() {
   Vec3d position;
   for (int axis = 0; axis < 3; ++axis) position[axis] = scan_.coordinate(next("a coordinate"));
-  mesh_.faceVertices.push_back(welder_.indexOf(position));
+  facet_.push_back(position);
 }
 
 // The next token. Fails if the text ends before it.
@@ -201,11 +260,15 @@ void TextParser::failExpected(std::string_view keyword, std::string_view token) 
 
 }  // namespace
 
-PolygonMesh parseStl(std::string_view data, const std::string& fileName) {
-  if (isBinary(data)) return parseBinary(data, fileName);
-  TextParser text(data, fileName);
-  const bool isText = data.find('\0') == std::string_view::npos;  // else a damaged binary file
-  if (!isText || !text.startsWithSolid()) failNeither(data, fileName);
+PolygonMesh parseStl(std::string_view data, ReadLog& log) {
+  if (isBinary(data)) return parseBinary(data, log.report);
+  TextParser text(data, log.report);
+  // Else a damaged binary file. After the facets of a text anything may follow.
+  const std::size_t nul = data.find('\0');
+  const std::string_view start = data.substr(0, nul);
+  const bool isText =
+      nul == data.npos || start.find("facet") != start.npos || start.find("FACET") != start.npos;
+  if (!isText || !text.startsWithSolid()) failNeither(data, log.report.file);
   return text.parse();
 }
 

@@ -9,6 +9,7 @@
 #include "libvox/io/scene_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace vox {
@@ -78,29 +79,50 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
     scene.strict = requireBoolean(text, *strict, "strict");
 }
 
+void requireScale(const std::optional<double>& scale) {
+  if (scale && !(*scale > 0 && std::isfinite(*scale)))
+    throw UsageError("--scale must be a positive number");
+}
+
+void scaleAll(Scene& scene, const std::optional<double>& scale) {
+  if (!scale) return;
+  for (SceneObject& object : scene.objects) scaleObject(object, *scale, scene.files[0]);
+}
+
 }  // namespace
 
-Scene parseScene(const fs::path& file, std::string_view content) {
+Scene parseScene(const fs::path& file, std::string_view content, std::optional<double> scale) {
+  requireScale(scale);
   SceneText text(file, content);
   Scene scene;
   scene.files.push_back(file);
-  requireKnownKeys(text, text.root, "the scene", {"convert", "object"});
+  requireKnownKeys(text, text.root, "the scene", {"scale", "convert", "object"});
+  if (const auto* node = text.root.get("scale")) {
+    const double ofScene = requireNumber(text, *node, "scale");
+    if (!(ofScene > 0)) text.fail(*node, "scale must be positive");
+    if (!scale) scale = ofScene;
+  }
   if (const auto* convert = text.root.get("convert"))
     readConvert(text, requireTable(text, *convert, "[convert]"), scene);
   if (const auto* objects = text.root.get("object"))
     for (const toml::node& object : requireArray(text, *objects, "[[object]]"))
       scene.objects.push_back(readObject(text, requireTable(text, object, "[[object]]"), scene));
   if (scene.objects.empty()) throw InputError(file.string() + ": has no [[object]] to convert");
+  scaleAll(scene, scale);
   scene.inputHash = text.hash.hex();
   return scene;
 }
 
-Scene readScene(const fs::path& file) {
-  if (lowerExtension(file) == ".toml") return parseScene(file, contentsOf(file));
+Scene readScene(const fs::path& file, std::optional<double> scale) {
+  if (lowerExtension(file) == ".toml") return parseScene(file, contentsOf(file), scale);
+  requireScale(scale);
   Scene scene;
   ContentHash hash;
   scene.files.push_back(file);
-  scene.objects.push_back({file.stem().string(), readMeshInto(hash, file)});
+  SceneObject& object = scene.objects.emplace_back();
+  object.name = file.stem().string();
+  object.mesh = readMeshInto(hash, file, object.reading);
+  scaleAll(scene, scale);
   scene.inputHash = hash.hex();
   return scene;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/io/read_report.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/options/grid_kind.h"
 #include "libvox/options/smoothing_options.h"
@@ -21,12 +22,13 @@ namespace vox {
 /// One object of a scene. Options without a value are not set.
 struct SceneObject {
   std::string name;
-  PolygonMesh mesh;  ///< world space; the transform of the object has been applied
+  PolygonMesh mesh;  ///< world space; transform of the object and scale have been applied
   SmoothingOptions smoothing = {};
   std::optional<StopRule> until = {};
   std::optional<Voxelize> voxelize = {};
   std::optional<TextureSpec> texture = {};
-  Eigen::Affine3d fromWorld = Eigen::Affine3d::Identity();  ///< inverse of the transform
+  Eigen::Affine3d fromWorld = Eigen::Affine3d::Identity();  ///< inverse of both
+  ReadReport reading = {};                                  ///< oddities of the mesh file
 };
 
 /// Objects to convert, and the options of the scene. Options without a value are not set.
@@ -48,15 +50,19 @@ struct Scene {
 ///
 /// Paths in a scene are relative to its folder. A transform scales, then rotates about x, y and z
 /// (degrees, in this order, counter-clockwise seen from the tip of the axis), then translates. If
-/// it mirrors, the faces are turned round, so that their outside stays outside.
+/// it mirrors, the faces are turned round, so that their outside stays outside. At last all objects
+/// are scaled about the origin of the world.
 ///
+/// @param scale  wins over the key `scale` of the scene; default 1
 /// @throws InputError  the file is unreadable or malformed; for an unknown key or a wrong type the
 ///   message starts with "FILE:LINE:COLUMN: "
-Scene readScene(const std::filesystem::path& file);
+/// @throws UsageError  the parameter `scale` is not positive and finite
+Scene readScene(const std::filesystem::path& file, std::optional<double> scale = {});
 
 /// Reads a scene from the content of a scene file.
 /// @param file  gives the folder of paths in the scene, and is named in messages
-/// @throws InputError  as readScene
-Scene parseScene(const std::filesystem::path& file, std::string_view content);
+/// @throws InputError, UsageError  as readScene
+Scene parseScene(const std::filesystem::path& file, std::string_view content,
+                 std::optional<double> scale = {});
 
 }  // namespace vox

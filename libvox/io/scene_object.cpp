@@ -90,7 +90,8 @@ void transformObject(const SceneText& text, const toml::node& node, SceneObject&
   if (transform.mirrors) reverseFaces(object.mesh);
 }
 
-PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& scene) {
+PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& scene,
+                           ReadReport& report) {
   const auto* mesh = table.get("mesh");
   const auto* points = table.get("points");
   const auto* faces = table.get("faces");
@@ -98,7 +99,7 @@ PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& sce
     const fs::path file = text.file.parent_path() / requireString(text, *mesh, "mesh");
     scene.files.push_back(file);
     try {
-      return readMeshInto(text.hash, file);
+      return readMeshInto(text.hash, file, report);
     } catch (const InputError& error) {
       text.fail(*mesh, std::string("mesh: ") + error.what());
     }
@@ -170,12 +171,21 @@ TextureSpec readTexture(const SceneText& text, const toml::node& node) {
 
 }  // namespace
 
-PolygonMesh readMeshInto(ContentHash& hash, const fs::path& file) {
+PolygonMesh readMeshInto(ContentHash& hash, const fs::path& file, ReadReport& report) {
   requireInputFile(file);
   requireMeshExtension(file);
   const std::string content = contentsOf(file);
   hash.addFile(content);
-  return parseMesh(file, content);
+  return parseMesh(file, content, report);
+}
+
+void scaleObject(SceneObject& object, double scale, const fs::path& file) {
+  for (Vec3d& point : object.mesh.points) {
+    point *= scale;
+    if (!(point.cwiseAbs().maxCoeff() <= kMaxCoordinate))
+      throw InputError(file.string() + ": the scale moves " + object.name + " beyond 1e15");
+  }
+  object.fromWorld = object.fromWorld * Eigen::Scaling(1 / scale);
 }
 
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
@@ -185,7 +195,7 @@ SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) 
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
   if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");
-  object.mesh = readObjectMesh(text, table, scene);
+  object.mesh = readObjectMesh(text, table, scene, object.reading);
   if (const auto* transform = table.get("transform")) transformObject(text, *transform, object);
   object.smoothing = readSmoothing(text, table, object.mesh.pointCount());
   if (const auto* until = table.get("until")) object.until = requireStopRule(text, *until);

@@ -10,11 +10,15 @@ namespace vox {
 
 /// Reads a mesh and adds the content of its file to a hash.
 /// @throws InputError  as readMesh
-PolygonMesh readMeshInto(ContentHash& hash, const std::filesystem::path& file);
+PolygonMesh readMeshInto(ContentHash& hash, const std::filesystem::path& file, ReadReport& report);
 
 /// Reads an [[object]] of a scene, with its mesh. If that is in a file, appends the file to
 /// scene.files and adds its content to text.hash.
 /// @throws InputError  a key or value is wrong, or the mesh cannot be read
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene);
+
+/// Scales an object about the origin of the world.
+/// @throws InputError  a coordinate gets larger than kMaxCoordinate; the message names the file
+void scaleObject(SceneObject& object, double scale, const std::filesystem::path& file);
 
 }  // namespace vox

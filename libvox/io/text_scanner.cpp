@@ -6,6 +6,7 @@
 #include "libvox/io/read_mesh.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace vox {
@@ -20,6 +21,30 @@ bool isPrintable(char c) {
 }
 bool isDigit(char c) {
   return c >= '0' && c <= '9';
+}
+
+/// True for the ends of 1.#INF, -1.#IND, 1.#QNAN and 1.#SNAN, as some C libraries spell them.
+bool startsUndefined(std::string_view text) {
+  const auto starts = [&](std::string_view word) { return text.starts_with(word); };
+  return starts("#INF") || starts("#IND") || starts("#QNAN") || starts("#SNAN");
+}
+
+/// True for all spellings of NaN and infinity.
+bool isUndefined(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  if (text.empty() || (isDigit(text[0]) && text.find('#') == text.npos)) return false;
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{}) return false;
+  return stop == end ? !std::isfinite(value) : startsUndefined({stop, end});
+}
+
+/// UTF-16 with a byte order mark, or with a character of ASCII at the start.
+bool isUtf16(std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return true;
+  return text.size() >= 2 &&
+         ((text[0] == 0 && isPrintable(text[1])) || (text[1] == 0 && isPrintable(text[0])));
 }
 
 // Whether a decimal literal outside the range of doubles is too large, not too small: if the
@@ -56,14 +81,28 @@ TextScanner::TextScanner(std::string_view text, std::string fileName, Rules rule
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   at_ = text.data();
   end_ = at_ + text.size();
+  if (isUtf16(text)) fail("the text is UTF-16; save it as UTF-8 or ASCII");
   for (const char c : {' ', '\t', '\v', '\f', '\n', '\r'})
     endsToken_[static_cast<unsigned char>(c)] = true;
+  endsToken_['#'] = rules.hashComments;
   endsToken_['\\'] = rules.continuations;
 }
 
 bool TextScanner::continuesHere() const {
   return rules_.continuations && *at_ == '\\' && at_ + 1 != end_ &&
          (at_[1] == '\n' || at_[1] == '\r');
+}
+
+/// True if a character that ends tokens elsewhere belongs to one here.
+bool TextScanner::isInToken() const {
+  if (*at_ == '\\') return !continuesHere();
+  return *at_ == '#' && startsUndefined(rest());
+}
+
+std::string_view TextScanner::restOfLine() {
+  const char* const begin = at_;
+  while (at_ != end_ && *at_ != '\n' && *at_ != '\r') ++at_;
+  return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 
 void TextScanner::skipLineEnd() {
@@ -112,7 +151,14 @@ double TextScanner::unusualNumber(std::string_view token) const {
 }
 
 double TextScanner::coordinate(std::string_view token) const {
-  const double value = number(token);
+  const std::string_view text = withoutPlus(token);
+  const char* const textEnd = text.data() + text.size();
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), textEnd, value);
+  if (error == std::errc{} && stop == textEnd && std::abs(value) <= kMaxCoordinate) [[likely]]
+    return value;
+  if (isUndefined(text)) return std::numeric_limits<double>::quiet_NaN();
+  value = number(token);
   if (std::abs(value) > kMaxCoordinate)
     fail("coordinate " + quote(token) + " is larger than 1e15; scale the model down");
   return value;

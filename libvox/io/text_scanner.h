@@ -16,14 +16,15 @@ std::string quote(std::string_view text);
 
 /// Splits a text into lines and blank-separated tokens, and converts numbers independently of the
 /// locale. Errors are InputErrors "FILE:LINE: ...". A line ends with LF, CRLF or CR; a byte order
-/// mark at the start is skipped. The text must outlive the scanner.
+/// mark at the start is skipped, UTF-16 is refused. The text must outlive the scanner.
 class TextScanner {
  public:
   struct Rules {
-    bool hashComments = false;   ///< a # at the start of a token begins a comment
+    bool hashComments = false;   ///< a # begins a comment, but not that of 1.#INF
     bool continuations = false;  ///< a backslash at the end of a line joins it with the next line
   };
 
+  /// @throws InputError  the text is UTF-16
   TextScanner(std::string_view text, std::string fileName, Rules rules);
 
   /// Next token of the current line; empty at the end of the line.
@@ -35,18 +36,26 @@ class TextScanner {
   /// Skips to the start of the next line; returns false if there is none.
   bool nextLine();
 
+  /// What is left of the current line, comments included; a backslash at its end joins nothing.
+  std::string_view restOfLine();
+
   /// The text that has not been read yet.
   std::string_view rest() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
 
   /// Number of the current line, from 1.
   std::size_t line() const { return line_; }
 
+  /// Comments that follow a token without a blank, and the line of the first of them.
+  std::uint64_t gluedComments() const { return gluedComments_; }
+  std::size_t lineOfGluedComment() const { return lineOfGluedComment_; }
+
   /// The finite number of a token. A leading + is accepted; numbers too small for a double become
   /// 0.
   /// @throws InputError  the token is none
   double number(std::string_view token) const;
 
-  /// The number of a token, at most kMaxCoordinate in size.
+  /// The number of a token, at most kMaxCoordinate in size; or NaN, if the token is a spelling of
+  /// NaN or infinity.
   /// @throws InputError  the token is none
   double coordinate(std::string_view token) const;
 
@@ -63,6 +72,7 @@ class TextScanner {
   static std::string_view withoutPlus(std::string_view token);
   bool endsToken(char c) const { return endsToken_[static_cast<unsigned char>(c)]; }
   bool continuesHere() const;
+  bool isInToken() const;
   void skipLineEnd();
   double unusualNumber(std::string_view token) const;
 
@@ -72,6 +82,8 @@ class TextScanner {
   const char* at_;
   const char* end_;
   std::size_t line_ = 1;
+  std::uint64_t gluedComments_ = 0;
+  std::size_t lineOfGluedComment_ = 0;
 };
 
 // Inline: called once per number of the file.
@@ -97,7 +109,8 @@ inline std::string_view TextScanner::token() {
   }
   if (at_ != end_ && *at_ == '#' && rules_.hashComments) return {};
   const char* const begin = at_;
-  while (at_ != end_ && (!endsToken(*at_) || (*at_ == '\\' && !continuesHere()))) ++at_;
+  while (at_ != end_ && (!endsToken(*at_) || isInToken())) ++at_;
+  if (at_ != end_ && *at_ == '#' && gluedComments_++ == 0) lineOfGluedComment_ = line_;
   return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 

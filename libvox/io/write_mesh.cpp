@@ -2,6 +2,7 @@
 
 #include "libvox/io/write_mesh.h"
 
+#include "libvox/core/color.h"
 #include "libvox/core/error.h"
 #include "libvox/io/byte_order.h"
 #include "libvox/io/input_file.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -28,6 +30,8 @@ class Writer {
   void text(std::string_view text) { buffer_ += text; }
   void count(std::size_t number) { convert(number); }
   void real(double number) { convert(number, std::chars_format::general, kDigits); }
+  /// As few digits as distinguish it from other floats.
+  void real(float number) { convert(number); }
   template <typename T>
   void binary(T number) {
     appendLittleEndian(buffer_, number);
@@ -73,15 +77,29 @@ void writePoint(Writer& out, const Vec3d& point) {
   out.real(point.y());
   out.text(" ");
   out.real(point.z());
+}
+
+/// " r g b" of an element; nothing if there are no colours.
+void writeColor(Writer& out, const std::vector<Vec3f>& colors, Index element) {
+  if (colors.empty()) return;
+  for (const float light : colors[element]) {
+    out.text(" ");
+    out.real(static_cast<float>(screenFromLinear(light)));
+  }
+}
+
+void endLine(Writer& out) {
   out.text("\n");
   out.endItem();
 }
 
 void writeObj(Writer& out, const PolygonMesh& mesh) {
   out.text("# libvox\n");
-  for (const Vec3d& point : mesh.points) {
+  for (Index v = 0; v < mesh.pointCount(); ++v) {
     out.text("v ");
-    writePoint(out, point);
+    writePoint(out, mesh.points[v]);
+    writeColor(out, mesh.pointColors, v);
+    endLine(out);
   }
   for (Index f = 0; f < mesh.faceCount(); ++f) {
     out.text("f");
@@ -95,12 +113,17 @@ void writeObj(Writer& out, const PolygonMesh& mesh) {
 }
 
 void writeOff(Writer& out, const PolygonMesh& mesh) {
-  out.text("OFF\n# libvox\n");
+  out.text(mesh.pointColors.empty() ? "OFF\n# libvox\n" : "COFF\n# libvox\n");
   out.count(mesh.pointCount());
   out.text(" ");
   out.count(mesh.faceCount());
   out.text(" 0\n");
-  for (const Vec3d& point : mesh.points) writePoint(out, point);
+  for (Index v = 0; v < mesh.pointCount(); ++v) {
+    writePoint(out, mesh.points[v]);
+    writeColor(out, mesh.pointColors, v);
+    if (!mesh.pointColors.empty()) out.text(" 1");  // alpha
+    endLine(out);
+  }
   for (Index f = 0; f < mesh.faceCount(); ++f) {
     out.count(mesh.faceSize(f));
     for (const Index v : mesh.face(f)) {
@@ -108,6 +131,7 @@ void writeOff(Writer& out, const PolygonMesh& mesh) {
       out.count(v);
       out.endItem();
     }
+    writeColor(out, mesh.faceColors, f);
     out.text("\n");
   }
 }
@@ -124,22 +148,36 @@ PlyTypes plyTypesFor(const PolygonMesh& mesh) {
   return {largest > 255, mesh.points.size() > std::size_t{1} << 31};
 }
 
+constexpr const char* kPlyColor = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+
+/// Three bytes of an element; nothing if there are no colours.
+void writeBytes(Writer& out, const std::vector<Vec3f>& colors, Index element) {
+  if (colors.empty()) return;
+  for (const float light : colors[element])
+    out.binary(static_cast<std::uint8_t>(std::lround(255 * screenFromLinear(light))));
+}
+
 void writePlyHeader(Writer& out, const PolygonMesh& mesh, PlyTypes types) {
   out.text("ply\nformat binary_little_endian 1.0\ncomment libvox\nelement vertex ");
   out.count(mesh.pointCount());
-  out.text("\nproperty double x\nproperty double y\nproperty double z\nelement face ");
+  out.text("\nproperty double x\nproperty double y\nproperty double z\n");
+  if (!mesh.pointColors.empty()) out.text(kPlyColor);
+  out.text("element face ");
   out.count(mesh.faceCount());
   out.text("\nproperty list ");
   out.text(types.wideCounts ? "uint " : "uchar ");
   out.text(types.wideIndices ? "uint " : "int ");
-  out.text("vertex_indices\nend_header\n");
+  out.text("vertex_indices\n");
+  if (!mesh.faceColors.empty()) out.text(kPlyColor);
+  out.text("end_header\n");
 }
 
 void writePly(Writer& out, const PolygonMesh& mesh) {
   const PlyTypes types = plyTypesFor(mesh);
   writePlyHeader(out, mesh, types);
-  for (const Vec3d& point : mesh.points) {
-    for (const double x : point) out.binary(x);
+  for (Index v = 0; v < mesh.pointCount(); ++v) {
+    for (const double x : mesh.points[v]) out.binary(x);
+    writeBytes(out, mesh.pointColors, v);
     out.endItem();
   }
   for (Index f = 0; f < mesh.faceCount(); ++f) {
@@ -152,6 +190,7 @@ void writePly(Writer& out, const PolygonMesh& mesh) {
       out.binary(v);  // int and uint have the same bytes below 2^31
       out.endItem();
     }
+    writeBytes(out, mesh.faceColors, f);
   }
 }
 

@@ -19,6 +19,8 @@ inline constexpr int kDefaultDim = 256;
 /// How to convert. A value that is not set comes from the object, else from the scene, else from
 /// the default.
 struct ConvertOptions : PreparationOptions {
+  /// Of the input; readScene has applied it. Grids record it, so that it can be applied again.
+  std::optional<double> scale;
   std::optional<int> dim;  ///< voxels along the longest side of the input; default: kDefaultDim
   std::optional<double> voxelSize;             ///< world units; overrides dim
   std::optional<std::vector<GridKind>> grids;  ///< default: density

@@ -20,6 +20,7 @@ constexpr std::string_view kSeparating = "-separating";
 /// follow the field.
 template <class Options, class Visit>
 void forEachField(Options& options, Visit&& visit) {
+  visit("scale", options.scale);
   visit("voxel-size", options.voxelSize);
   visit("dim", options.dim);
   visit("boundary", options.smoothing.boundary, kBoundaryRuleNames);

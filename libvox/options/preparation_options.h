@@ -11,7 +11,9 @@ namespace vox {
 struct PreparationOptions {
   SmoothingOptions smoothing;           ///< default: boundary extended, nothing interpolated
   std::optional<double> weldTolerance;  ///< world units; default 0: equal positions only
-  std::optional<bool> strict;  ///< true: a mesh that needs repair is refused; default false
+  /// true: a mesh that needs repair, or whose file is odd (read_report.h), is refused; default
+  /// false
+  std::optional<bool> strict;
 };
 
 }  // namespace vox

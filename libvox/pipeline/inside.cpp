@@ -111,7 +111,9 @@ void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
   const std::string open = describeOpen(surface, componentsOf(surface.base), transform);
   if (open.empty()) return;
   if (openMesh == OpenMesh::kError)
-    throw MeshError(open + "; close it, or use --open-mesh " + allNamesIn(kOpenMeshNames));
+    throw MeshError(open + "; close it, or use --open-mesh " +
+                    nameIn(kOpenMeshNames, OpenMesh::kSurface) + " or " +
+                    nameIn(kOpenMeshNames, OpenMesh::kUnsigned));
   warnings.push_back(open);
 }
 

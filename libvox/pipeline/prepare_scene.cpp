@@ -52,6 +52,19 @@ bool needsInside(const Request& request) {
   });
 }
 
+/// Warns of a grid of colours for objects that have none.
+void warnOfColors(const Scene& scene, const Request& request, ConvertReport& report) {
+  if (std::find(request.grids.begin(), request.grids.end(), GridKind::kColor) ==
+      request.grids.end())
+    return;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const PolygonMesh& mesh = scene.objects[i].mesh;
+    if (request.objects[i].texture || !mesh.pointColors.empty() || !mesh.faceColors.empty()) return;
+  }
+  report.warnings.emplace_back(
+      "the input has no colours, so the grid color is grey; --texture gives it a pattern");
+}
+
 /// Notes what preparation did. Refuses vertices that it moved out of the range of the grid.
 void notePreparation(const PreparedObject& prepared, const GridTransform& transform,
                      ObjectReport& part, ConvertReport& report) {
@@ -92,6 +105,7 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
 
   if (request.volume.tolerance)
     report.warnings.push_back("tolerance has no effect any more: distances are exact");
+  warnOfColors(scene, request, report);
   const Box box = boxOf(scene);
   GridTransform& transform = prepared.transform;
   transform = transformFor(request.resolution, box);

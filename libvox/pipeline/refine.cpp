@@ -2,6 +2,7 @@
 
 #include "libvox/pipeline/refine.h"
 
+#include "libvox/core/color.h"
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
@@ -9,7 +10,9 @@
 #include "libvox/mesh/validate.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/prepare/sound.h"
+#include "libvox/subdivide/strip.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
@@ -39,6 +42,14 @@ struct VertexOrigin {
   std::vector<Index> weldedTo;  ///< for each input vertex: the one that it was welded to, or itself
   std::vector<Index> of;        ///< for each prepared vertex: an input vertex
 };
+
+/// Warns of what reading the file of an object has lost. Strict: refuses a file that is odd at all.
+void noteReading(const SceneObject& object, bool strict, std::vector<std::string>& warnings) {
+  const std::string odd = firstOddity(object.reading);
+  if (strict && !odd.empty()) throw InputError(odd + ", which strict forbids");
+  const std::string lost = lossText(object.reading);
+  if (!lost.empty()) warnings.push_back(object.name + ": reading its file " + lost);
+}
 
 /// The mesh of an object made sound; a warning tells what was done to it.
 PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
@@ -94,15 +105,49 @@ double partOfStep(int k, int levels) {
   return 3 * std::ldexp(1.0, 2 * (k - 1)) / (std::ldexp(1.0, 2 * levels) - 1);
 }
 
-/// append (polygon_mesh.h), if all elements fit in 32 bits.
+/// The colours of the points of the next level; none if the level has no colours. An image has the
+/// colour of its face if points have none.
+std::vector<Vec3f> imageColors(SubdivisionLevel& level) {
+  PolygonMesh& mesh = level.mesh;
+  std::vector<Vec3f> colors;
+  if (!mesh.pointColors.empty()) {
+    std::vector<Vec3d> asPoints;
+    for (const Vec3f& color : mesh.pointColors) asPoints.push_back(color.cast<double>());
+    std::swap(mesh.points, asPoints);
+    for (const Vec3d& color : imageVertices(level))
+      colors.push_back(color.cwiseMax(0).cwiseMin(1).cast<float>());
+    std::swap(mesh.points, asPoints);
+  } else if (!mesh.faceColors.empty()) {
+    const auto colorAt = [&](Index c) { return mesh.faceColors[level.adjacency.cornerFace[c]]; };
+    for (Index c = 0; c < mesh.cornerCount(); ++c) colors.push_back(colorAt(c));
+    if (level.boundary == BoundaryStage::kExtend)
+      for (const Index c : boundaryCorners(level.adjacency))
+        colors.insert(colors.end(), 2, colorAt(c));
+  }
+  return colors;
+}
+
+/// Appends the colours of more elements to those of the first `count`. Elements without are grey.
+void appendColors(std::vector<Vec3f>& all, Index count, std::vector<Vec3f> more, Index moreCount) {
+  if (all.empty() && more.empty()) return;
+  const Vec3f plain = Vec3f::Constant(kPlainColor);
+  all.resize(count, plain);
+  more.resize(moreCount, plain);
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// append (polygon_mesh.h) and the colours, if all elements fit in 32 bits.
 void appendWithin(PolygonMesh& all, PolygonMesh part) {
   if (std::uint64_t{all.cornerCount()} + part.cornerCount() >= kNone ||
       std::uint64_t{all.pointCount()} + part.pointCount() >= kNone)
     throw LimitError("the objects together have more elements than fit in 32 bits");
-  if (all.faceCount() == 0)
+  if (all.faceCount() == 0) {
     all = std::move(part);
-  else
-    append(all, part);
+    return;
+  }
+  appendColors(all.pointColors, all.pointCount(), std::move(part.pointColors), part.pointCount());
+  appendColors(all.faceColors, all.faceCount(), std::move(part.faceColors), part.faceCount());
+  append(all, part);
 }
 
 /// Work of the stages of an object.
@@ -135,7 +180,8 @@ Refinement refineAll(const Scene& scene, int levels,
     progress.begin("prepare", works[i].prepare);
     PreparedObject prepared = prepare(scene, object, preparations[i], budget, progress);
     progress.begin("subdivide", works[i].subdivide);
-    PolygonMesh part = subdividedWithin(budget, std::move(prepared.base), levels, progress).mesh;
+    PolygonMesh part =
+        subdividedWithin(budget, std::move(prepared.base), levels, progress, Colors::kKept).mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
     budget.take(2 * bytesOf(part), "the refined mesh", kRefineAdvice);
@@ -168,12 +214,15 @@ std::uint64_t bytesOfNextTopology(const SubdivisionLevel& level) {
 }
 
 SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel level, int levels,
-                                  Progress& progress) {
+                                  Progress& progress, Colors colors) {
   for (int k = 1; k <= levels; ++k) {
     progress.check();
     budget.require(bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level),
                    "level " + std::to_string(k), kRefineAdvice);
+    std::vector<Vec3f> painted;
+    if (colors == Colors::kKept) painted = imageColors(level);
     level = nextLevel(level, imageVertices(level));
+    level.mesh.pointColors = std::move(painted);
     progress.done(partOfStep(k, levels));
   }
   return level;
@@ -191,6 +240,7 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
   budget.require(bytesOf(object.mesh) + object.mesh.cornerCount() * kPerCorner,
                  "finding neighbours", "raise --max-memory");
   PreparedObject prepared;
+  noteReading(object, preparation.strict, prepared.warnings);
   SubdivisionLevel& base = prepared.base;
   namingObject(scene, object, [&] {
     VertexOrigin origin;

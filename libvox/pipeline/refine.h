@@ -18,13 +18,14 @@ class MemoryBudget;
 class Progress;
 
 struct Refinement {
-  PolygonMesh mesh;
+  PolygonMesh mesh;  ///< with the colours of points and faces of the objects, grey where they lack
   std::vector<std::string> warnings;  ///< one line each
 };
 
 /// All objects of a scene as one mesh, after K Doo-Sabin steps; K = 0 gives the control meshes:
-/// repaired, oriented, and lifted where vertices are interpolated. The progress keeps a share for
-/// writing the mesh: beginLast.
+/// repaired, oriented, and lifted where vertices are interpolated. Colours of points are subdivided
+/// as the points are; the first step turns those of faces into colours of points. The progress
+/// keeps a share for writing the mesh: beginLast.
 /// @throws UsageError  levels < 0; as requirePreparable and prepare
 /// @throws MeshError   an object has contradictory arrays, or cannot be prepared; the message names
 ///   file, object and element
@@ -52,10 +53,13 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
                        const ObjectPreparation& preparation, const MemoryBudget& budget,
                        Progress& progress);
 
+/// Whether the colours of a mesh are subdivided with it, or dropped.
+enum class Colors { kDropped, kKept };
+
 /// K Doo-Sabin steps.
 /// @throws LimitError  a level does not fit into the budget, or has 2^32 - 1 corners or more
 SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel level, int levels,
-                                  Progress& progress);
+                                  Progress& progress, Colors colors = Colors::kDropped);
 
 /// Checks the arrays of every object (requireValidArrays).
 /// @throws MeshError  the message names file and object

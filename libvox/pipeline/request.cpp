@@ -74,12 +74,15 @@ ConversionWay wayOf(const Scene& scene, const SceneObject& object, const Convert
 }
 
 /// The text of the options. The resolution is there even if the scene or the default set it, and so
-/// are different widths of the band: they tell which values the level set has far off.
-std::string textOf(ConvertOptions options, const Resolution& resolution, const BandWidths& band) {
+/// are different widths of the band, which tell the values of the level set far off, and a target
+/// whose rules differ from those of Blender.
+std::string textOf(ConvertOptions options, const Resolution& resolution,
+                   const VolumeSettings& volume) {
   options.voxelSize = resolution.voxelSize;
   options.dim = resolution.dim.value_or(kDefaultDim);
   if (options.voxelSize) options.dim.reset();
-  if (!band.isSymmetric()) options.volume.band = band;
+  if (!volume.band.isSymmetric()) options.volume.band = volume.band;
+  if (volume.target == Target::kHoudini) options.volume.target = volume.target;
   return optionText(options);
 }
 
@@ -129,7 +132,7 @@ Request resolve(const Scene& scene, const ConvertOptions& options) {
   const auto& up = options.volume.up ? options.volume.up : scene.volume.up;
   request.turn = turnFor(up, request.volume.target);
   request.grids = gridsOf(scene, options);
-  request.optionText = textOf(options, request.resolution, request.volume.band);
+  request.optionText = textOf(options, request.resolution, request.volume);
   requirePreparable(scene, options);
   return request;
 }

@@ -2,6 +2,7 @@
 
 #include "libvox/render/render.h"
 
+#include "libvox/core/color.h"
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
@@ -65,13 +66,6 @@ std::vector<Camera> camerasOf(const VisibleGrids& visible, const RenderOptions& 
   return cameras;
 }
 
-/// Source: IEC 61966-2-1 (sRGB).
-double screenOf(double light) {
-  constexpr double kEndOfStraightPart = 0.0031308;
-  const double shown = std::clamp(light, 0.0, 1.0);
-  return shown <= kEndOfStraightPart ? 12.92 * shown : 1.055 * std::pow(shown, 1 / 2.4) - 0.055;
-}
-
 /// @param light    sum of the light of all samples that hit
 /// @param covered  share of the samples that hit
 Pixel pixelOf(const Light& light, double covered, const Pixel& background) {
@@ -79,7 +73,8 @@ Pixel pixelOf(const Light& light, double covered, const Pixel& background) {
   Pixel pixel;
   const bool transparent = background[3] == 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double shown = 255 * screenOf(light[static_cast<Eigen::Index>(i)]);
+    const double shown =
+        255 * screenFromLinear(std::clamp(light[static_cast<Eigen::Index>(i)], 0.0, 1.0));
     const double mixed = transparent ? shown : covered * shown + (1 - covered) * background[i];
     pixel[i] = static_cast<std::uint8_t>(std::lround(mixed));
   }

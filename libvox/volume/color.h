@@ -1,14 +1,12 @@
 #pragma once
 
+#include "libvox/core/color.h"
 #include "libvox/core/parallel.h"
 #include "libvox/grid/openvdb.h"
 
 #include <openvdb/tree/LeafManager.h>
 
 namespace vox {
-
-/// Linear grey value of voxels of objects without a colour.
-inline constexpr float kPlainColor = 0.8F;
 
 /// Grid `color`: kPlainColor at the voxels of the mask, background 0, transform of the mask.
 openvdb::Vec3SGrid::Ptr colorGrid(const openvdb::MaskGrid& mask);

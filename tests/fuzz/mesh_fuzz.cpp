@@ -10,7 +10,12 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vox;
   try {
-    fuzz::requireSoundMesh(parseMesh(VOX_FUZZ_FILE, {reinterpret_cast<const char*>(data), size}));
+    ReadReport report;
+    fuzz::requireSoundMesh(
+        parseMesh(VOX_FUZZ_FILE, {reinterpret_cast<const char*>(data), size}, report));
+    const std::string odd = firstOddity(report);
+    fuzz::require(odd.empty() || odd.starts_with(VOX_FUZZ_FILE ":"), "an oddity names the file");
+    fuzz::require(lossText(report).empty() || !odd.empty(), "what is lost is an oddity");
   } catch (const InputError& error) {
     fuzz::requireClearRefusal(error, VOX_FUZZ_FILE);
   }
