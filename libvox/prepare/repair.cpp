@@ -4,6 +4,8 @@
 #include "libvox/prepare/repair.h"
 
 #include "libvox/core/numbered.h"
+#include "libvox/core/parallel.h"
+#include "libvox/mesh/star_shaped.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/prepare/chord.h"
 #include "libvox/prepare/face_order.h"
@@ -12,6 +14,7 @@
 #include "libvox/prepare/weld.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -72,24 +75,72 @@ void noteCleaning(Index f, Index loops, bool repeats, RepairReport& report) {
     });
 }
 
+void countSplit(FaceSplit& split, Index f, std::size_t parts) {
+  if (split.faces++ == 0) split.first = f;
+  split.parts += parts;
+}
+
 void cleanFaces(Draft& draft, RepairReport& report) {
   PolygonMesh clean;
   std::vector<Index> faceOrigin;
   LoopCutter cutter(draft.mesh.pointCount());
+  std::vector<std::vector<Index>> loops;
+  std::vector<std::vector<Index>> parts;
   for (Index f = 0; f < draft.mesh.faceCount(); ++f) {
-    Index loops = 0;
+    loops.clear();
     bool repeats = false;
     cutter.cut(draft.mesh.face(f), [&](std::span<const Index> loop) {
       repeats |= loop.size() < 3;
-      if (loop.size() < 3) return;
-      clean.addFace(loop);
-      faceOrigin.push_back(draft.faceOrigin[f]);
-      ++loops;
+      if (loop.size() >= 3) loops.emplace_back(loop.begin(), loop.end());
     });
-    noteCleaning(draft.faceOrigin[f], loops, repeats, report);
+    const Index origin = draft.faceOrigin[f];
+    const bool isKeyhole = loops.size() > 1 && convexFaces(draft.mesh.points, loops, parts);
+    if (isKeyhole)
+      countSplit(report.faces.keyholes, origin, parts.size());
+    else
+      noteCleaning(origin, static_cast<Index>(loops.size()), repeats, report);
+    for (const std::vector<Index>& face : isKeyhole ? parts : loops) {
+      clean.addFace(face);
+      faceOrigin.push_back(origin);
+    }
   }
   clean.points = std::move(draft.mesh.points);
   draft.mesh = std::move(clean);
+  draft.faceOrigin = std::move(faceOrigin);
+}
+
+/// For each face, whether it is to be split: it is not star-shaped. Parallel.
+std::vector<std::uint8_t> concaveFaces(const PolygonMesh& mesh) {
+  constexpr Index kTestsPerTask = 2048;
+  std::vector<std::uint8_t> concave(mesh.faceCount());
+  parallelForEach(mesh.faceCount(), kTestsPerTask, [&](Index f) {
+    if (mesh.faceSize(f) == 3) return;
+    std::vector<Index> face(mesh.face(f).begin(), mesh.face(f).end());
+    canonicalize(face);  // sums of other orders might decide otherwise
+    std::vector<Vec3d> corners;
+    for (const Index v : face) corners.push_back(mesh.points[v]);
+    concave[f] = !isStarShaped(corners);
+  });
+  return concave;
+}
+
+void splitConcaveFaces(Draft& draft, RepairReport& report) {
+  const std::vector<std::uint8_t> concave = concaveFaces(draft.mesh);
+  if (std::find(concave.begin(), concave.end(), 1) == concave.end()) return;
+  PolygonMesh split;
+  std::vector<Index> faceOrigin;
+  std::vector<std::vector<Index>> parts;
+  for (Index f = 0; f < draft.mesh.faceCount(); ++f) {
+    const std::vector<Index> face(draft.mesh.face(f).begin(), draft.mesh.face(f).end());
+    if (!concave[f] || !convexFaces(draft.mesh.points, {&face, 1}, parts)) parts = {face};
+    if (parts.size() > 1) countSplit(report.faces.concave, draft.faceOrigin[f], parts.size());
+    for (const std::vector<Index>& part : parts) {
+      split.addFace(part);
+      faceOrigin.push_back(draft.faceOrigin[f]);
+    }
+  }
+  split.points = std::move(draft.mesh.points);
+  draft.mesh = std::move(split);
   draft.faceOrigin = std::move(faceOrigin);
 }
 
@@ -250,6 +301,10 @@ PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport&
 
   if (options.weld) weld(draft, options.weldTolerance, report);
   cleanFaces(draft, report);
+  if (options.faces == FaceRule::kSplit) {
+    dropDuplicates(draft, report);
+    splitConcaveFaces(draft, report);
+  }
   makeManifold(draft, report);
   removeUnused(draft);
   noteRemoved(draft, report);
