@@ -164,7 +164,7 @@ Json describe(const SceneObject& object, const ObjectPreparation& preparation, b
   const std::string done = summary(report);
   const std::string split = summary(report.repair.faces);
   std::cout << "    repair            " << (done.empty() ? "none needed" : done) << '\n';
-  if (!split.empty()) std::cout << "    for smoothing     " << split << '\n';
+  if (!split.empty()) std::cout << "    faces             " << split << '\n';
   if (prepared.faces == 0)
     std::cout << "  after repair: nothing is left\n";
   else if (!done.empty() || !split.empty())

@@ -1,9 +1,14 @@
+// Merging as S. Hertel, K. Mehlhorn, Fast triangulation of simple polygons, 1983; flips as C.
+// Lawson, Software for C1 surface interpolation, 1977.
+//
 // Half-edges: number 3 t + k runs from corner k of triangle t to the next one. Both sides of a
 // bridge are half-edges of the same two corners, so bridges are diagonals like all others.
 
 #include "libvox/mesh/convex_parts.h"
 
+#include "libvox/core/forest.h"
 #include "libvox/core/numbered.h"
+#include "libvox/mesh/bulge.h"
 #include "libvox/mesh/join_holes.h"
 #include "libvox/mesh/triangulate.h"
 
@@ -19,6 +24,9 @@ namespace {
 
 constexpr double kFlatSine = 1e-4;
 constexpr double kFlatDepth = 1e-7;  // of the extent of the region
+constexpr double kMostBulge = 0.25;
+constexpr std::size_t kMostCornersAtBends = 256;  // of a part: bounds the cost of a merge
+constexpr int kMostPasses = 4;
 constexpr std::size_t kFlipsPerTriangle = 64;
 constexpr double kLeastGain = 1 + 1e-9;  // of a flip: grids of squares are left alone
 
@@ -72,21 +80,21 @@ class ConvexPartition {
     }
   }
 
-  /// Removes diagonals as long as the parts stay convex.
-  void merge() {
+  /// Removes diagonals as long as the parts stay convex and do not bulge.
+  void merge(std::span<const std::vector<Index>> loops) {
+    bends_ = bendsOf(flat_, loops);
+    findBentParts();
+    measure();
     std::vector<Index> order = diagonals();
     std::vector<double> length(from_.size());
     for (const Index h : order) length[h] = squaredDistance(at(h), at(next_[h]));
     std::stable_sort(order.begin(), order.end(),
                      [&](Index g, Index h) { return length[g] > length[h]; });
-    measure();
     removed_.assign(from_.size(), false);
-    for (const Index h : order) {
-      const Index g = twin_[h];
-      if (!isConvex(previous_[h], next_[g]) || !isConvex(previous_[g], next_[h])) continue;
-      join(previous_[h], next_[g]);
-      join(previous_[g], next_[h]);
-      removed_[h] = removed_[g] = true;
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const std::size_t before = order.size();
+      std::erase_if(order, [&](Index h) { return removeIfGood(h); });
+      if (order.size() == before) break;
     }
   }
 
@@ -149,6 +157,49 @@ class ConvexPartition {
     return then > kLeastGain * now;
   }
 
+  /// Makes each triangle a part.
+  void findBentParts() {
+    parts_ = Forest(from_.size());
+    isBent_.assign(from_.size(), false);
+    for (Index h = 0; h < from_.size(); ++h) parts_.unite(h, next_[h]);
+    for (Index h = 0; h < from_.size(); ++h)
+      if (bends_[from_[h]].size > 0) isBent_[parts_.find(h)] = true;
+  }
+
+  /// That of the part of a half-edge (BulgeMeter).
+  double bulge(Index h) { return isBent_[parts_.find(h)] ? bulgeOfBent(h) : 0; }
+
+  double bulgeOfBent(Index first) {
+    corners_.clear();
+    for (Index h = first; corners_.empty() || h != first; h = next_[h]) {
+      if (corners_.size() == kMostCornersAtBends) return INFINITY;
+      corners_.push_back(from_[h]);
+    }
+    return meter_.of(corners_, flat_, bends_);
+  }
+
+  /// @return whether the diagonal was removed
+  bool removeIfGood(Index h) {
+    const Index g = twin_[h];
+    const std::array<Index, 4> around = {previous_[h], next_[h], previous_[g], next_[g]};
+    if (!isConvex(around[0], around[3]) || !isConvex(around[2], around[1])) return false;
+    const double before = std::max({kMostBulge, bulge(h), bulge(g)});
+    const bool isBent = isBent_[parts_.find(h)] || isBent_[parts_.find(g)];
+    join(around[0], around[3]);
+    join(around[2], around[1]);
+    if (isBent && bulgeOfBent(around[0]) > before) {
+      join(around[0], h);
+      join(h, around[1]);
+      join(around[2], g);
+      join(g, around[3]);
+      return false;
+    }
+    parts_.unite(h, g);
+    isBent_[parts_.find(h)] = isBent;
+    removed_[h] = removed_[g] = true;
+    return true;
+  }
+
   void measure() {
     FlatPoint low = flat_[from_[0]];
     FlatPoint high = low;
@@ -176,6 +227,11 @@ class ConvexPartition {
   std::span<const FlatPoint> flat_;
   std::vector<Index> from_, next_, previous_, twin_;  ///< by half-edge
   std::vector<bool> removed_;
+  Forest parts_ = Forest(0);    ///< half-edges of one part
+  std::vector<bool> isBent_;    ///< by root of parts_: the part has a corner with a bend
+  std::vector<Bend> bends_;     ///< by corner of the region
+  std::vector<Index> corners_;  ///< of bulgeOfBent
+  BulgeMeter meter_;
   double extent_ = 0;
 };
 
@@ -201,7 +257,7 @@ bool convexParts(std::span<const Vec3d> positions, std::span<const FlatPoint> fl
   ConvexPartition partition(flat, triangles);
   if (!partition.pairDiagonals()) return false;
   partition.flip();
-  partition.merge();
+  partition.merge(loops);
   parts = partition.parts();
   return true;
 }

@@ -22,12 +22,30 @@ class HoleJoiner {
   HoleJoiner(std::span<const FlatPoint> flat, std::span<const std::vector<Index>> loops)
       : flat_(flat), ring_(loops[0]) {
     for (const std::vector<Index>& loop : loops)
-      for (std::size_t i = 0; i < loop.size(); ++i)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
         sides_.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
+        shared_.push_back(flat[loop[i]]);
+      }
+    // Of the positions keep those of two corners and more.
+    std::sort(shared_.begin(), shared_.end());
+    std::size_t kept = 0;
+    for (std::size_t k = 1; k < shared_.size(); ++k)
+      if (shared_[k] == shared_[k - 1]) shared_[kept++] = shared_[k];
+    shared_.resize(kept);
   }
 
   /// Joins a hole that starts at its leftmost corner.
-  bool join(const std::vector<Index>& hole) {
+  bool join(std::vector<Index> hole) {
+    for (std::size_t i = 0; i < hole.size(); ++i) {
+      if (std::binary_search(shared_.begin(), shared_.end(), flat_[hole[0]]))
+        for (std::size_t k = 0; k < ring_.size(); ++k)
+          if (touches(k, hole)) {
+            hole.push_back(ring_[k]);
+            insertAfter(k, {hole.begin() + 1, hole.end()});
+            return true;
+          }
+      std::rotate(hole.begin(), hole.begin() + 1, hole.end());
+    }
     std::vector<std::size_t> nearest(ring_.size());
     for (std::size_t k = 0; k < nearest.size(); ++k) nearest[k] = k;
     const auto farther = [&](std::size_t k, std::size_t l) {
@@ -40,18 +58,11 @@ class HoleJoiner {
       std::pop_heap(nearest.begin(), nearest.end(), farther);
       const std::size_t k = nearest.back();
       nearest.pop_back();
-      if (touches(k, hole)) {
-        std::vector<Index> part(hole.begin() + 1, hole.end());
-        part.push_back(ring_[k]);
-        insertAfter(k, part);
-        return true;
-      }
       if (!sees(k, hole)) continue;
       sides_.emplace_back(ring_[k], hole[0]);
-      std::vector<Index> part = hole;
-      part.push_back(hole[0]);
-      part.push_back(ring_[k]);
-      insertAfter(k, part);
+      hole.push_back(hole[0]);
+      hole.push_back(ring_[k]);
+      insertAfter(k, hole);
       return true;
     }
     return false;
@@ -113,6 +124,7 @@ class HoleJoiner {
   std::span<const FlatPoint> flat_;
   std::vector<Index> ring_;
   std::vector<std::pair<Index, Index>> sides_;  ///< of all loops, and the bridges
+  std::vector<FlatPoint> shared_;  ///< positions where corners of several loops lie, sorted
 };
 
 }  // namespace

@@ -8,11 +8,13 @@
 #include "libvox/prepare/face_order.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace vox {
 namespace {
 
+constexpr std::uint64_t kMostWork = 2'000'000'000;  // loops times corners: half a minute
 constexpr double kSliver = 1e-12;  // area of a loop that counts as none, of its box
 
 /// A loop on the lattice.
@@ -160,6 +162,9 @@ std::string summary(const FaceSplitReport& report) {
 
 bool convexFaces(std::span<const Vec3d> points, std::span<const std::vector<Index>> loops,
                  std::vector<std::vector<Index>>& parts) {
+  std::uint64_t cornerCount = 0;
+  for (const std::vector<Index>& loop : loops) cornerCount += loop.size();
+  if (loops.size() * cornerCount > kMostWork) return false;
   const CanonicalLoops canonical(points, loops);
   std::vector<Index> vertices;
   std::vector<Vec3d> positions;

@@ -36,7 +36,7 @@ std::string summary(const FaceSplitReport& report);
 /// @param parts  replaced by the convex faces, wound like the face. They depend neither on the
 ///               winding of loops nor on their order and first vertices, except for the winding.
 /// @return  false if there are several loops but no holes, if loops cross, or if the one loop is
-///   convex; `parts` is then undefined
+///   convex, or if l n is larger than 2 10^9; `parts` is then undefined
 /// Cost: that of convexParts, and O(l n) for l loops with n corners.
 bool convexFaces(std::span<const Vec3d> points, std::span<const std::vector<Index>> loops,
                  std::vector<std::vector<Index>>& parts);

@@ -34,7 +34,7 @@ struct Draft {
   PolygonMesh mesh;
   std::vector<Index> pointOrigin;
   std::vector<Index> faceOrigin;
-  std::vector<bool> chorded;  // per input point
+  std::vector<bool> dispensable;  // per input point: not missed if the output lacks it
 };
 
 template <class Message>
@@ -95,10 +95,12 @@ void cleanFaces(Draft& draft, RepairReport& report) {
     });
     const Index origin = draft.faceOrigin[f];
     const bool isKeyhole = loops.size() > 1 && convexFaces(draft.mesh.points, loops, parts);
-    if (isKeyhole)
+    if (isKeyhole) {
       countSplit(report.faces.keyholes, origin, parts.size());
-    else
+      for (const Index v : draft.mesh.face(f)) draft.dispensable[v] = true;  // those on bridges
+    } else {
       noteCleaning(origin, static_cast<Index>(loops.size()), repeats, report);
+    }
     for (const std::vector<Index>& face : isKeyhole ? parts : loops) {
       clean.addFace(face);
       faceOrigin.push_back(origin);
@@ -106,41 +108,6 @@ void cleanFaces(Draft& draft, RepairReport& report) {
   }
   clean.points = std::move(draft.mesh.points);
   draft.mesh = std::move(clean);
-  draft.faceOrigin = std::move(faceOrigin);
-}
-
-/// For each face, whether it is to be split: it is not star-shaped. Parallel.
-std::vector<std::uint8_t> concaveFaces(const PolygonMesh& mesh) {
-  constexpr Index kTestsPerTask = 2048;
-  std::vector<std::uint8_t> concave(mesh.faceCount());
-  parallelForEach(mesh.faceCount(), kTestsPerTask, [&](Index f) {
-    if (mesh.faceSize(f) == 3) return;
-    std::vector<Index> face(mesh.face(f).begin(), mesh.face(f).end());
-    canonicalize(face);  // sums of other orders might decide otherwise
-    std::vector<Vec3d> corners;
-    for (const Index v : face) corners.push_back(mesh.points[v]);
-    concave[f] = !isStarShaped(corners);
-  });
-  return concave;
-}
-
-void splitConcaveFaces(Draft& draft, RepairReport& report) {
-  const std::vector<std::uint8_t> concave = concaveFaces(draft.mesh);
-  if (std::find(concave.begin(), concave.end(), 1) == concave.end()) return;
-  PolygonMesh split;
-  std::vector<Index> faceOrigin;
-  std::vector<std::vector<Index>> parts;
-  for (Index f = 0; f < draft.mesh.faceCount(); ++f) {
-    const std::vector<Index> face(draft.mesh.face(f).begin(), draft.mesh.face(f).end());
-    if (!concave[f] || !convexFaces(draft.mesh.points, {&face, 1}, parts)) parts = {face};
-    if (parts.size() > 1) countSplit(report.faces.concave, draft.faceOrigin[f], parts.size());
-    for (const std::vector<Index>& part : parts) {
-      split.addFace(part);
-      faceOrigin.push_back(draft.faceOrigin[f]);
-    }
-  }
-  split.points = std::move(draft.mesh.points);
-  draft.mesh = std::move(split);
   draft.faceOrigin = std::move(faceOrigin);
 }
 
@@ -162,6 +129,43 @@ void dropDuplicates(Draft& draft, RepairReport& report) {
   }
   kept.points = std::move(draft.mesh.points);
   draft.mesh = std::move(kept);
+  draft.faceOrigin = std::move(faceOrigin);
+}
+
+/// For each face, whether it is to be split: it is not star-shaped. Parallel.
+std::vector<std::uint8_t> concaveFaces(const PolygonMesh& mesh) {
+  constexpr Index kTestsPerTask = 2048;
+  std::vector<std::uint8_t> concave(mesh.faceCount());
+  parallelForEach(mesh.faceCount(), kTestsPerTask, [&](Index f) {
+    if (mesh.faceSize(f) == 3) return;
+    std::vector<Index> face(mesh.face(f).begin(), mesh.face(f).end());
+    canonicalize(face);  // sums of other orders might decide otherwise
+    std::vector<Vec3d> corners;
+    for (const Index v : face) corners.push_back(mesh.points[v]);
+    concave[f] = !isStarShaped(corners);
+  });
+  return concave;
+}
+
+void splitConcaveFaces(Draft& draft, RepairReport& report) {
+  std::vector<std::uint8_t> concave = concaveFaces(draft.mesh);
+  if (std::find(concave.begin(), concave.end(), 1) == concave.end()) return;
+  dropDuplicates(draft, report);  // first, so that messages count whole faces
+  concave = concaveFaces(draft.mesh);
+  PolygonMesh split;
+  std::vector<Index> faceOrigin;
+  std::vector<std::vector<Index>> parts;
+  for (Index f = 0; f < draft.mesh.faceCount(); ++f) {
+    const std::vector<Index> face(draft.mesh.face(f).begin(), draft.mesh.face(f).end());
+    if (!concave[f] || !convexFaces(draft.mesh.points, {&face, 1}, parts)) parts = {face};
+    if (parts.size() > 1) countSplit(report.faces.concave, draft.faceOrigin[f], parts.size());
+    for (const std::vector<Index>& part : parts) {
+      split.addFace(part);
+      faceOrigin.push_back(draft.faceOrigin[f]);
+    }
+  }
+  split.points = std::move(draft.mesh.points);
+  draft.mesh = std::move(split);
   draft.faceOrigin = std::move(faceOrigin);
 }
 
@@ -220,7 +224,7 @@ Adjacency cutIntoSheets(Draft& draft, RepairReport& report) {
 
 void noteChords(Draft& draft, const ChordResult& chords, RepairReport& report) {
   for (const Index v : chords.chordedVertices) {
-    draft.chorded[draft.pointOrigin[v]] = true;
+    draft.dispensable[draft.pointOrigin[v]] = true;
     note(report, RepairKind::kChordedVertex, draft.pointOrigin[v], [&] {
       return "chorded vertex " + str(draft.pointOrigin[v]) +
              ", which has only two faces and no boundary";
@@ -261,9 +265,10 @@ void makeManifold(Draft& draft, RepairReport& report) {
   noteCopies(draft, copied, std::vector<bool>(draft.mesh.pointCount(), false), report);
 }
 
-/// Counts the vertices of the input that are not in the output, except welded and chorded ones.
+/// Counts the vertices of the input that are not in the output, except welded and chorded ones, and
+/// those on bridges of keyholes.
 void noteRemoved(const Draft& draft, RepairReport& report) {
-  std::vector<bool> accountedFor = draft.chorded;
+  std::vector<bool> accountedFor = draft.dispensable;
   for (const Index origin : draft.pointOrigin) accountedFor[origin] = true;
   for (Index v = 0; v < accountedFor.size(); ++v)
     if (!accountedFor[v] && report.weldedTo[v] == v)
@@ -295,16 +300,13 @@ PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport&
   report = RepairReport{};
   report.weldedTo = numbered(mesh.pointCount());
   Draft draft{std::move(mesh), {}, {}, {}};
-  draft.chorded.assign(draft.mesh.pointCount(), false);
+  draft.dispensable.assign(draft.mesh.pointCount(), false);
   draft.pointOrigin = numbered(draft.mesh.pointCount());
   draft.faceOrigin = numbered(draft.mesh.faceCount());
 
   if (options.weld) weld(draft, options.weldTolerance, report);
   cleanFaces(draft, report);
-  if (options.faces == FaceRule::kSplit) {
-    dropDuplicates(draft, report);
-    splitConcaveFaces(draft, report);
-  }
+  if (options.faces == FaceRule::kSplit) splitConcaveFaces(draft, report);
   makeManifold(draft, report);
   removeUnused(draft);
   noteRemoved(draft, report);
