@@ -147,11 +147,10 @@ std::vector<std::uint8_t> concaveFaces(const PolygonMesh& mesh) {
   return concave;
 }
 
-void splitConcaveFaces(Draft& draft, RepairReport& report) {
-  std::vector<std::uint8_t> concave = concaveFaces(draft.mesh);
-  if (std::find(concave.begin(), concave.end(), 1) == concave.end()) return;
-  dropDuplicates(draft, report);  // first, so that messages count whole faces
-  concave = concaveFaces(draft.mesh);
+/// @return whether there were concave faces
+bool splitConcaveFaces(Draft& draft, RepairReport& report) {
+  const std::vector<std::uint8_t> concave = concaveFaces(draft.mesh);
+  if (std::find(concave.begin(), concave.end(), 1) == concave.end()) return false;
   PolygonMesh split;
   std::vector<Index> faceOrigin;
   std::vector<std::vector<Index>> parts;
@@ -167,6 +166,7 @@ void splitConcaveFaces(Draft& draft, RepairReport& report) {
   split.points = std::move(draft.mesh.points);
   draft.mesh = std::move(split);
   draft.faceOrigin = std::move(faceOrigin);
+  return true;
 }
 
 std::pair<Index, Index> edgeOf(const Draft& draft, const Adjacency& joints, Index c) {
@@ -252,9 +252,13 @@ bool chord(Draft& draft, const Adjacency& joints, RepairReport& report) {
   return true;
 }
 
-void makeManifold(Draft& draft, RepairReport& report) {
+/// Chording can leave concave faces, and splitting can end at vertices of two faces. So both are
+/// done in each round.
+void makeManifold(Draft& draft, FaceRule faces, RepairReport& report) {
   for (int round = 0; round < kMostRounds; ++round) {
     dropDuplicates(draft, report);
+    if (faces == FaceRule::kSplit && splitConcaveFaces(draft, report))
+      dropDuplicates(draft, report);
     const Adjacency joints = cutIntoSheets(draft, report);
     if (!chord(draft, joints, report)) return;
   }
@@ -306,8 +310,7 @@ PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport&
 
   if (options.weld) weld(draft, options.weldTolerance, report);
   cleanFaces(draft, report);
-  if (options.faces == FaceRule::kSplit) splitConcaveFaces(draft, report);
-  makeManifold(draft, report);
+  makeManifold(draft, options.faces, report);
   removeUnused(draft);
   noteRemoved(draft, report);
   report.pointOrigin = std::move(draft.pointOrigin);

@@ -85,7 +85,7 @@ std::string summary(const RepairReport& report);
 /// Colours are dropped; soundMesh (sound.h) keeps them. Vertices and faces keep their order; copies
 /// follow at the end, in the order of their originals. A face without faults keeps its corners as
 /// they are. The winding of faces does not matter. Copies lie at the place of their original, so a
-/// second run changes nothing if it does not weld.
+/// second run that neither welds nor splits changes nothing.
 ///
 /// @throws MeshError   the arrays are not valid (requireValidArrays)
 /// @throws UsageError  the tolerance is negative or not finite
