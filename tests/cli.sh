@@ -401,6 +401,56 @@ expect 3 'strict.toml: needs repair, .*face 1' convert strict.toml -o out.vdb --
 expect 0 '' convert strict.toml -o strict.vdb --dim 8 --strict=false
 expect 0 'active voxels' convert "$scenes/cube.toml" -o strict.vdb --dim 8 --strict --force
 
+# Faces with holes and concave faces are split, which is no fault.
+cat >frame.obj <<'OBJ'
+v 0 0 0
+v 4 0 0
+v 4 4 0
+v 0 4 0
+v 1 1 0
+v 1 3 0
+v 3 3 0
+v 3 1 0
+f 1 2 3 4 1 5 6 7 8 5
+OBJ
+cat >slot.obj <<'OBJ'
+v 0 0 0
+v 3 0 0
+v 3 3 0
+v 2 3 0
+v 2 1 0
+v 1 1 0
+v 1 3 0
+v 0 3 0
+f 1 2 3 4 5 6 7 8
+OBJ
+says() { grep -q "$1" stderr || fail "not '$1', but: $(cat stderr)"; }
+expect 0 '' convert frame.obj -o frame.vdb --dim 16 --strict --faces keep
+says 'frame: split 1 face with holes into 4'
+expect 0 '' convert slot.obj -o slot.vdb --dim 16 --strict
+says 'slot: split 1 concave face into 3'
+expect 0 '' subdivide slot.obj -o slot_parts.obj --levels 0
+says '8 vertices, 3 faces'
+expect 0 '8 vertices, 1 faces' subdivide slot.obj -o slot_parts.obj --levels 0 --force --faces keep
+for keep in '--faces keep' '--until levels=0'; do
+  expect 0 'active voxels' convert slot.obj -o slot.vdb --dim 16 --force $keep
+  ! grep -q split stderr || fail "faces are split in spite of $keep: $(cat stderr)"
+done
+expect 2 'one of split, keep' convert slot.obj -o out.vdb --faces cut
+"$vox" info slot.obj >stdout
+grep -q 'split 1 concave face into 3' stdout || fail "info does not tell of concave faces: $(cat stdout)"
+"$vox" info slot.obj --json | grep -q '"concave faces"' || fail 'info --json does not tell of concave faces'
+"$vox" info slot.obj --faces keep >stdout
+! grep -q split stdout || fail "info splits in spite of --faces keep: $(cat stdout)"
+printf '[[object]]\nname = "slot"\nmesh = "slot.obj"\nconcave_faces = "keep"\n' >slot.toml
+expect 0 'active voxels' convert slot.toml -o slot.vdb --dim 16 --force
+! grep -q split stderr || fail "faces are split in spite of the scene: $(cat stderr)"
+expect 0 '' convert slot.toml -o slot.vdb --dim 16 --force --faces split
+says 'split 1 concave'
+expect 0 '' check slot.vdb --mesh slot.toml
+printf '[[object]]\nmesh = "slot.obj"\nfaces = "keep"\n' >slot.toml
+expect 3 'slot.toml:3:.*concave_faces' convert slot.toml -o slot.vdb --dim 16 --force
+
 # Near vertices, in world units.
 cat >near.obj <<'OBJ'
 v 0 0 0

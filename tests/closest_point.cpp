@@ -4,7 +4,7 @@
 #include "tests/closest_point.h"
 
 #include "libvox/mesh/patch.h"
-#include "libvox/voxelize/triangulate.h"
+#include "libvox/mesh/triangulate.h"
 #include "tests/limit_pieces.h"
 
 #include <Eigen/Geometry>

@@ -32,6 +32,7 @@ OPTIONS = [
     "--localize off",
     "--localize before --submesh-faces 16",
     "--weld 0.01",
+    "--faces keep --grids surface",
     "--strict",
     "--verify",
 ]

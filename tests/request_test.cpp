@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <utility>
+
 using namespace vox;
 
 namespace {
@@ -72,7 +74,7 @@ TEST_CASE("options of volumes are resolved one by one", "[request]") {
 TEST_CASE("the vertices to interpolate are one choice", "[request]") {
   Scene scene = sceneOf(1);
   scene.objects[0].smoothing = {BoundaryRule::kFree, Interpolate::kInterior,
-                                std::vector<Index>{2, 0}};
+                                std::vector<Index>{2, 0}, FaceRule::kKeep};
   PreparationOptions options;
   CHECK(preparationsOf(scene, options)[0].interpolatedVertices == std::vector<Index>{2, 0});
   // Options that name one part of the choice replace all of it.
@@ -80,6 +82,23 @@ TEST_CASE("the vertices to interpolate are one choice", "[request]") {
   const ObjectPreparation preparation = preparationsOf(scene, options)[0];
   CHECK(preparation.boundary == BoundaryRule::kFree);
   CHECK_FALSE(preparation.interpolates());
+}
+
+TEST_CASE("concave faces are split before smoothing only", "[request]") {
+  Scene scene = sceneOf(2);
+  scene.objects[0].smoothing.faces = FaceRule::kKeep;
+  const auto rules = [&](const ConvertOptions& options) {
+    const Request request = resolve(scene, options);
+    return std::pair(request.objects[0].preparation.faces, request.objects[1].preparation.faces);
+  };
+  ConvertOptions options;
+  CHECK(rules(options) == std::pair(FaceRule::kKeep, FaceRule::kSplit));
+  options.smoothing.faces = FaceRule::kSplit;
+  CHECK(rules(options) == std::pair(FaceRule::kSplit, FaceRule::kSplit));
+  options.until = StopRule{.levels = 0};
+  CHECK(rules(options) == std::pair(FaceRule::kKeep, FaceRule::kKeep));
+  options.until = StopRule{.levels = 1};
+  CHECK(rules(options) == std::pair(FaceRule::kSplit, FaceRule::kSplit));
 }
 
 TEST_CASE("options that name a resolution replace all that the scene says of it", "[request]") {
@@ -134,6 +153,7 @@ TEST_CASE("options written as text are read again", "[request]") {
     options.smoothing.boundary = BoundaryRule::kFree;
     options.smoothing.interpolate = Interpolate::kInterior;
     options.smoothing.interpolatedVertices = {7, 8, 9};
+    options.smoothing.faces = FaceRule::kKeep;
     options.weldTolerance = 1e-5;
     options.texture = parseTexture("marble:scale=0.2,seed=3,colors=#102030/1:0.5:0");
     options.volume.fill = Fill::kSolid;

@@ -1,4 +1,4 @@
-#include "libvox/voxelize/triangulate.h"
+#include "libvox/mesh/triangulate.h"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>

@@ -132,6 +132,7 @@ ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const CheckArguments
                      ": was made with --interpolate-vertices; give the same file here");
   if (given.boundary) made.smoothing.boundary = given.boundary;
   if (given.interpolate) made.smoothing.interpolate = given.interpolate;
+  if (given.faces) made.smoothing.faces = given.faces;
   made.smoothing.interpolatedVertices = given.interpolatedVertices;
   if (options.weldTolerance) made.weldTolerance = options.weldTolerance;
   if (!options.until.empty()) {

@@ -74,6 +74,7 @@ Json optionsJson(const FinishedRun& run) {
       {"interpolate",
        smoothing.interpolate ? Json(nameIn(kInterpolateNames, *smoothing.interpolate)) : Json()},
       {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
+      {"faces", smoothing.faces ? Json(nameIn(kFaceRuleNames, *smoothing.faces)) : Json()},
       {"weld", orNull(options.weldTolerance)},
       {"strict", orNull(options.strict)},
       {"until", options.until ? Json(stopRuleName(*options.until)) : Json()},

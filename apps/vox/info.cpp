@@ -25,6 +25,7 @@ struct InfoArguments {
   bool json = false;
   std::optional<double> scale;
   std::optional<double> weldTolerance;
+  std::string faces;
 };
 
 std::map<DefectKind, std::uint64_t> countByKind(const std::vector<Defect>& defects) {
@@ -74,6 +75,16 @@ Json toJson(const SoundReport& report) {
   if (!orient.oneSided.empty())
     json["doubled one-sided components"] = {{"count", orient.oneSided.size()},
                                             {"first", orient.oneSided[0]}};
+  return json;
+}
+
+Json toJson(const FaceSplitReport& report) {
+  const auto splitJson = [](const FaceSplit& split) {
+    return Json{{"count", split.faces}, {"parts", split.parts}, {"first", split.first}};
+  };
+  Json json = Json::object();
+  if (report.keyholes.faces > 0) json["faces with holes"] = splitJson(report.keyholes);
+  if (report.concave.faces > 0) json["concave faces"] = splitJson(report.concave);
   return json;
 }
 
@@ -135,10 +146,11 @@ void print(const std::string& title, const MeshSummary& mesh) {
 }
 
 /// A mesh as it is, the repairs of preparation, and the mesh after them.
-Json describe(const SceneObject& object, double weldTolerance, bool json) {
+Json describe(const SceneObject& object, const ObjectPreparation& preparation, bool json) {
   const MeshSummary input = summarize(object.mesh);
   RepairOptions options;
-  options.weldTolerance = weldTolerance;
+  options.weldTolerance = preparation.weldTolerance;
+  options.faces = preparation.faces;
   SoundReport report;
   const MeshSummary prepared = summarize(soundMesh(object.mesh, options, report));
   if (json) {
@@ -146,6 +158,7 @@ Json describe(const SceneObject& object, double weldTolerance, bool json) {
     all["reading"] = lossText(object.reading);
     all.update(toJson(input));
     all["repair"] = toJson(report);
+    all["split"] = toJson(report.repair.faces);
     all["prepared"] = toJson(prepared);
     return all;
   }
@@ -153,11 +166,13 @@ Json describe(const SceneObject& object, double weldTolerance, bool json) {
   if (const std::string lost = lossText(object.reading); !lost.empty())
     std::cout << "    reading           " << lost << '\n';
   const std::string done = summary(report);
+  const std::string split = summary(report.repair.faces);
   std::cout << "    repair            " << (done.empty() ? "none needed" : done) << '\n';
+  if (!split.empty()) std::cout << "    faces             " << split << '\n';
   if (prepared.faces == 0)
     std::cout << "  after repair: nothing is left\n";
-  else if (!done.empty())
-    print("after repair", prepared);
+  else if (!done.empty() || !split.empty())
+    print(split.empty() ? "after repair" : "after repair and splitting", prepared);
   return {};
 }
 
@@ -188,9 +203,10 @@ Json describe(const std::string& file, const InfoArguments& options) {
   const Scene scene = readScene(file, options.scale);
   PreparationOptions preparation;
   preparation.weldTolerance = options.weldTolerance;
+  preparation.smoothing.faces = parseFaces(options.faces);
   const std::vector<ObjectPreparation> prepared = preparationsOf(scene, preparation);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    all["meshes"].push_back(describe(scene.objects[i], prepared[i].weldTolerance, options.json));
+    all["meshes"].push_back(describe(scene.objects[i], prepared[i], options.json));
   return all;
 }
 
@@ -209,6 +225,7 @@ Action addInfo(CLI::App& app) {
   command.add("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)").required();
   command.addFlag("--json", options->json, "Print JSON");
   addScaleOption(command, options->scale);
+  addFacesOption(command, options->faces);
   addWeldOption(command, options->weldTolerance);
   return [options] { return runInfo(*options); };
 }

@@ -126,12 +126,28 @@ void addSmoothingOptions(const Command& command, SmoothingArguments& arguments) 
            "comment")
       .type("FILE")
       .group("Smoothing");
+  addFacesOption(command, arguments.faces);
+}
+
+void addFacesOption(const Command& command, std::string& faces) {
+  command
+      .add("--faces", faces,
+           "Concave faces: those that smoothing would fold over, because they are not star-shaped "
+           "about the mean of their corners, are split into convex faces (split) or stay as they "
+           "are (keep). With --until levels=0 they stay (default: the scene's, or split)")
+      .type("split|keep")
+      .group("Smoothing");
+}
+
+std::optional<FaceRule> parseFaces(const std::string& faces) {
+  return parseNamed("--faces", kFaceRuleNames, faces);
 }
 
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   SmoothingOptions smoothing;
   smoothing.boundary = parseNamed("--boundary", kBoundaryRuleNames, arguments.boundary);
   smoothing.interpolate = parseNamed("--interpolate", kInterpolateNames, arguments.interpolate);
+  smoothing.faces = parseFaces(arguments.faces);
   if (!arguments.vertexFile.empty())
     smoothing.interpolatedVertices = readIndices(arguments.vertexFile);
   return smoothing;

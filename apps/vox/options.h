@@ -29,13 +29,19 @@ struct ResolutionOptions {
 };
 void addResolutionOptions(const Command& command, ResolutionOptions& resolution);
 
-/// --boundary, --interpolate and --interpolate-vertices, as typed.
+/// --boundary, --interpolate, --interpolate-vertices and --faces, as typed.
 struct SmoothingArguments {
   std::string boundary;
+  std::string faces;
   std::string interpolate;
   std::string vertexFile;
 };
 void addSmoothingOptions(const Command& command, SmoothingArguments& arguments);
+
+/// --faces alone.
+void addFacesOption(const Command& command, std::string& faces);
+/// @throws UsageError
+std::optional<FaceRule> parseFaces(const std::string& faces);
 
 /// Their values; reads the file of vertices.
 /// @throws UsageError, InputError

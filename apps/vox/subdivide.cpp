@@ -108,8 +108,8 @@ Action addSubdivide(CLI::App& app) {
   constexpr int kMostLevels = 30;
   command
       .add("--levels", options->levels,
-           "Doo-Sabin steps; 0 writes the control mesh: the input with its vertices moved where "
-           "--interpolate asks for it")
+           "Doo-Sabin steps; 0 writes the control mesh: the input as it is smoothed, with faces "
+           "split (--faces) and vertices moved (--interpolate)")
       .required()
       .range(0, kMostLevels)
       .type("K")

@@ -5,9 +5,9 @@
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/voxel.h"
 #include "libvox/inspect/crossings.h"
+#include "libvox/mesh/triangulate.h"
 #include "libvox/options/voxelize.h"
 #include "libvox/voxelize/scan.h"
-#include "libvox/voxelize/triangulate.h"
 
 #include <Eigen/Geometry>
 #include <openvdb/tools/Morphology.h>

@@ -95,6 +95,8 @@ PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& sce
   const auto* mesh = table.get("mesh");
   const auto* points = table.get("points");
   const auto* faces = table.get("faces");
+  if (faces != nullptr && faces->is_string())
+    text.fail(*faces, "faces is a list of faces; for concave faces there is concave_faces");
   if (mesh != nullptr && points == nullptr && faces == nullptr) {
     const fs::path file = text.file.parent_path() / requireString(text, *mesh, "mesh");
     scene.files.push_back(file);
@@ -121,6 +123,7 @@ SmoothingOptions readSmoothing(const SceneText& text, const toml::table& table, 
   SmoothingOptions smoothing;
   readNamed(text, table, "boundary", kBoundaryRuleNames, smoothing.boundary);
   readNamed(text, table, "interpolate", kInterpolateNames, smoothing.interpolate);
+  readNamed(text, table, "concave_faces", kFaceRuleNames, smoothing.faces);
   if (const auto* node = table.get("interpolate_vertices"))
     smoothing.interpolatedVertices = readVertexList(text, *node, pointCount);
   return smoothing;
@@ -191,7 +194,7 @@ void scaleObject(SceneObject& object, double scale, const fs::path& file) {
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[[object]]",
                    {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
-                    "interpolate_vertices", "until", "voxelize", "texture"});
+                    "interpolate_vertices", "concave_faces", "until", "voxelize", "texture"});
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
   if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");

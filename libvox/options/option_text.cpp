@@ -26,6 +26,7 @@ void forEachField(Options& options, Visit&& visit) {
   visit("boundary", options.smoothing.boundary, kBoundaryRuleNames);
   visit("interpolate", options.smoothing.interpolate, kInterpolateNames);
   visit("interpolated-vertices", options.smoothing.interpolatedVertices);
+  visit("faces", options.smoothing.faces, kFaceRuleNames);
   visit("weld", options.weldTolerance);
   visit("texture", options.texture);
   visit("fill", options.volume.fill, kFillNames);

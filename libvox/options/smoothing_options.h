@@ -24,11 +24,21 @@ inline constexpr NameTable<Interpolate, 4> kInterpolateNames = {
      {Interpolate::kBoundary, "boundary"},
      {Interpolate::kBoth, "both"}}};
 
+/// What happens to faces that smoothing would fold over: those that are not star-shaped about the
+/// mean of their corners.
+enum class FaceRule {
+  kSplit,  ///< they are split into convex faces
+  kKeep,   ///< they stay as they are
+};
+inline constexpr NameTable<FaceRule, 2> kFaceRuleNames = {
+    {{FaceRule::kSplit, "split"}, {FaceRule::kKeep, "keep"}}};
+
 /// How to smooth an object. A value that is not set comes from the object, else from the default.
 struct SmoothingOptions {
   std::optional<BoundaryRule> boundary;                    ///< default: kExtend
   std::optional<Interpolate> interpolate;                  ///< default: kNothing
   std::optional<std::vector<Index>> interpolatedVertices;  ///< interior, added to `interpolate`
+  std::optional<FaceRule> faces;                           ///< default: kSplit
 };
 
 }  // namespace vox

@@ -5,8 +5,8 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/mesh/triangulate.h"
 #include "libvox/pipeline/foot_cells.h"
-#include "libvox/voxelize/triangulate.h"
 
 #include <openvdb/tools/Prune.h>
 

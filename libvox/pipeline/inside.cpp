@@ -6,6 +6,7 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/mesh/triangulate.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/refine.h"
@@ -13,7 +14,6 @@
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/volume/fill.h"
 #include "libvox/volume/winding.h"
-#include "libvox/voxelize/triangulate.h"
 
 #include <algorithm>
 #include <array>

@@ -7,11 +7,11 @@
 #include "libvox/core/progress.h"
 #include "libvox/grid/active_voxels.h"
 #include "libvox/grid/leaf_cache.h"
+#include "libvox/mesh/triangulate.h"
 #include "libvox/options/voxelize.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/refined_polygons.h"
 #include "libvox/voxelize/scan.h"
-#include "libvox/voxelize/triangulate.h"
 
 #include <tbb/enumerable_thread_specific.h>
 

@@ -56,13 +56,16 @@ PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& prep
                         VertexOrigin& origin, std::vector<std::string>& warnings) {
   RepairOptions repair;
   repair.weldTolerance = preparation.weldTolerance;
+  repair.faces = preparation.faces;
   SoundReport report;
   PolygonMesh mesh = soundMesh(object.mesh, repair, report);
-  const std::string done = summary(report);
+  std::string done = summary(report);
   if (preparation.strict && !done.empty())
     throw MeshError("needs repair, which strict forbids: " + firstAction(report) +
                     "; in all: " + done);
   if (mesh.faceCount() == 0) throw MeshError("nothing is left after repair: " + done);
+  const std::string split = summary(report.repair.faces);
+  if (!split.empty()) done += (done.empty() ? "" : ", ") + split;
   if (!done.empty()) warnings.push_back(object.name + ": " + done);
   origin.weldedTo = std::move(report.repair.weldedTo);
   origin.of = std::move(report.orient.pointOrigin);

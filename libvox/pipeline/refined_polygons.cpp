@@ -3,8 +3,8 @@
 #include "libvox/pipeline/refined_polygons.h"
 
 #include "libvox/core/error.h"
+#include "libvox/mesh/triangulate.h"
 #include "libvox/subdivide/local_polygons.h"
-#include "libvox/voxelize/triangulate.h"
 
 #include <algorithm>
 #include <cmath>

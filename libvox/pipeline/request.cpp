@@ -31,6 +31,7 @@ ObjectPreparation preparationOf(const Scene& scene, const SceneObject& object,
   const SmoothingOptions& chosen = byOptions ? first : second;
   result.interpolate = chosen.interpolate.value_or(result.interpolate);
   if (chosen.interpolatedVertices) result.interpolatedVertices = *chosen.interpolatedVertices;
+  result.faces = firstSet({first.faces, second.faces}, result.faces);
   result.weldTolerance = firstSet({options.weldTolerance, scene.weldTolerance});
   result.strict = firstSet({options.strict, scene.strict});
   return result;
@@ -125,9 +126,12 @@ void requirePreparable(const Scene& scene, const PreparationOptions& options) {
 Request resolve(const Scene& scene, const ConvertOptions& options) {
   Request request(options);
   request.resolution = resolutionOf(scene, options);
-  for (const SceneObject& object : scene.objects)
-    request.objects.push_back({preparationOf(scene, object, options), wayOf(scene, object, options),
-                               options.texture ? options.texture : object.texture});
+  for (const SceneObject& object : scene.objects) {
+    ObjectRequest& wanted = request.objects.emplace_back(
+        ObjectRequest{preparationOf(scene, object, options), wayOf(scene, object, options),
+                      options.texture ? options.texture : object.texture});
+    if (wanted.way.until.levels == 0) wanted.preparation.faces = FaceRule::kKeep;  // no smoothing
+  }
   request.volume = volumeOf(options.volume, scene.volume);
   const auto& up = options.volume.up ? options.volume.up : scene.volume.up;
   request.turn = turnFor(up, request.volume.target);

@@ -32,8 +32,9 @@ struct ObjectPreparation {
   BoundaryRule boundary = BoundaryRule::kExtend;
   Interpolate interpolate = Interpolate::kNothing;
   std::vector<Index> interpolatedVertices = {};  ///< interior ones, besides `interpolate`
-  double weldTolerance = 0;                      ///< world units
-  bool strict = false;                           ///< a mesh that needs repair is refused
+  FaceRule faces = FaceRule::kSplit;
+  double weldTolerance = 0;  ///< world units
+  bool strict = false;       ///< a mesh that needs repair is refused
 
   /// True if the surface is to pass through some vertex.
   bool interpolates() const {

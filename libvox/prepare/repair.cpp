@@ -4,6 +4,8 @@
 #include "libvox/prepare/repair.h"
 
 #include "libvox/core/numbered.h"
+#include "libvox/core/parallel.h"
+#include "libvox/mesh/star_shaped.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/prepare/chord.h"
 #include "libvox/prepare/face_order.h"
@@ -12,6 +14,7 @@
 #include "libvox/prepare/weld.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -31,7 +34,7 @@ struct Draft {
   PolygonMesh mesh;
   std::vector<Index> pointOrigin;
   std::vector<Index> faceOrigin;
-  std::vector<bool> chorded;  // per input point
+  std::vector<bool> dispensable;  // per input point: not missed if the output lacks it
 };
 
 template <class Message>
@@ -72,21 +75,36 @@ void noteCleaning(Index f, Index loops, bool repeats, RepairReport& report) {
     });
 }
 
+void countSplit(FaceSplit& split, Index f, std::size_t parts) {
+  if (split.faces++ == 0) split.first = f;
+  split.parts += parts;
+}
+
 void cleanFaces(Draft& draft, RepairReport& report) {
   PolygonMesh clean;
   std::vector<Index> faceOrigin;
   LoopCutter cutter(draft.mesh.pointCount());
+  std::vector<std::vector<Index>> loops;
+  std::vector<std::vector<Index>> parts;
   for (Index f = 0; f < draft.mesh.faceCount(); ++f) {
-    Index loops = 0;
+    loops.clear();
     bool repeats = false;
     cutter.cut(draft.mesh.face(f), [&](std::span<const Index> loop) {
       repeats |= loop.size() < 3;
-      if (loop.size() < 3) return;
-      clean.addFace(loop);
-      faceOrigin.push_back(draft.faceOrigin[f]);
-      ++loops;
+      if (loop.size() >= 3) loops.emplace_back(loop.begin(), loop.end());
     });
-    noteCleaning(draft.faceOrigin[f], loops, repeats, report);
+    const Index origin = draft.faceOrigin[f];
+    const bool isKeyhole = loops.size() > 1 && convexFaces(draft.mesh.points, loops, parts);
+    if (isKeyhole) {
+      countSplit(report.faces.keyholes, origin, parts.size());
+      for (const Index v : draft.mesh.face(f)) draft.dispensable[v] = true;  // those on bridges
+    } else {
+      noteCleaning(origin, static_cast<Index>(loops.size()), repeats, report);
+    }
+    for (const std::vector<Index>& face : isKeyhole ? parts : loops) {
+      clean.addFace(face);
+      faceOrigin.push_back(origin);
+    }
   }
   clean.points = std::move(draft.mesh.points);
   draft.mesh = std::move(clean);
@@ -112,6 +130,43 @@ void dropDuplicates(Draft& draft, RepairReport& report) {
   kept.points = std::move(draft.mesh.points);
   draft.mesh = std::move(kept);
   draft.faceOrigin = std::move(faceOrigin);
+}
+
+/// For each face, whether it is to be split: it is not star-shaped. Parallel.
+std::vector<std::uint8_t> concaveFaces(const PolygonMesh& mesh) {
+  constexpr Index kTestsPerTask = 2048;
+  std::vector<std::uint8_t> concave(mesh.faceCount());
+  parallelForEach(mesh.faceCount(), kTestsPerTask, [&](Index f) {
+    if (mesh.faceSize(f) == 3) return;
+    std::vector<Index> face(mesh.face(f).begin(), mesh.face(f).end());
+    canonicalize(face);  // sums of other orders might decide otherwise
+    std::vector<Vec3d> corners;
+    for (const Index v : face) corners.push_back(mesh.points[v]);
+    concave[f] = !isStarShaped(corners);
+  });
+  return concave;
+}
+
+/// @return whether there were concave faces
+bool splitConcaveFaces(Draft& draft, RepairReport& report) {
+  const std::vector<std::uint8_t> concave = concaveFaces(draft.mesh);
+  if (std::find(concave.begin(), concave.end(), 1) == concave.end()) return false;
+  PolygonMesh split;
+  std::vector<Index> faceOrigin;
+  std::vector<std::vector<Index>> parts;
+  for (Index f = 0; f < draft.mesh.faceCount(); ++f) {
+    const std::vector<Index> face(draft.mesh.face(f).begin(), draft.mesh.face(f).end());
+    if (!concave[f] || !convexFaces(draft.mesh.points, {&face, 1}, parts)) parts = {face};
+    if (parts.size() > 1) countSplit(report.faces.concave, draft.faceOrigin[f], parts.size());
+    for (const std::vector<Index>& part : parts) {
+      split.addFace(part);
+      faceOrigin.push_back(draft.faceOrigin[f]);
+    }
+  }
+  split.points = std::move(draft.mesh.points);
+  draft.mesh = std::move(split);
+  draft.faceOrigin = std::move(faceOrigin);
+  return true;
 }
 
 std::pair<Index, Index> edgeOf(const Draft& draft, const Adjacency& joints, Index c) {
@@ -169,7 +224,7 @@ Adjacency cutIntoSheets(Draft& draft, RepairReport& report) {
 
 void noteChords(Draft& draft, const ChordResult& chords, RepairReport& report) {
   for (const Index v : chords.chordedVertices) {
-    draft.chorded[draft.pointOrigin[v]] = true;
+    draft.dispensable[draft.pointOrigin[v]] = true;
     note(report, RepairKind::kChordedVertex, draft.pointOrigin[v], [&] {
       return "chorded vertex " + str(draft.pointOrigin[v]) +
              ", which has only two faces and no boundary";
@@ -197,9 +252,13 @@ bool chord(Draft& draft, const Adjacency& joints, RepairReport& report) {
   return true;
 }
 
-void makeManifold(Draft& draft, RepairReport& report) {
+/// Chording can leave concave faces, and splitting can end at vertices of two faces. So both are
+/// done in each round.
+void makeManifold(Draft& draft, FaceRule faces, RepairReport& report) {
   for (int round = 0; round < kMostRounds; ++round) {
     dropDuplicates(draft, report);
+    if (faces == FaceRule::kSplit && splitConcaveFaces(draft, report))
+      dropDuplicates(draft, report);
     const Adjacency joints = cutIntoSheets(draft, report);
     if (!chord(draft, joints, report)) return;
   }
@@ -210,9 +269,10 @@ void makeManifold(Draft& draft, RepairReport& report) {
   noteCopies(draft, copied, std::vector<bool>(draft.mesh.pointCount(), false), report);
 }
 
-/// Counts the vertices of the input that are not in the output, except welded and chorded ones.
+/// Counts the vertices of the input that are not in the output, except welded and chorded ones, and
+/// those on bridges of keyholes.
 void noteRemoved(const Draft& draft, RepairReport& report) {
-  std::vector<bool> accountedFor = draft.chorded;
+  std::vector<bool> accountedFor = draft.dispensable;
   for (const Index origin : draft.pointOrigin) accountedFor[origin] = true;
   for (Index v = 0; v < accountedFor.size(); ++v)
     if (!accountedFor[v] && report.weldedTo[v] == v)
@@ -244,13 +304,13 @@ PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport&
   report = RepairReport{};
   report.weldedTo = numbered(mesh.pointCount());
   Draft draft{std::move(mesh), {}, {}, {}};
-  draft.chorded.assign(draft.mesh.pointCount(), false);
+  draft.dispensable.assign(draft.mesh.pointCount(), false);
   draft.pointOrigin = numbered(draft.mesh.pointCount());
   draft.faceOrigin = numbered(draft.mesh.faceCount());
 
   if (options.weld) weld(draft, options.weldTolerance, report);
   cleanFaces(draft, report);
-  makeManifold(draft, report);
+  makeManifold(draft, options.faces, report);
   removeUnused(draft);
   noteRemoved(draft, report);
   report.pointOrigin = std::move(draft.pointOrigin);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "libvox/mesh/polygon_mesh.h"
+#include "libvox/options/smoothing_options.h"
+#include "libvox/prepare/convex_faces.h"
 
 #include <array>
 #include <cstddef>
@@ -15,6 +17,7 @@ struct RepairOptions {
   /// false: points at the same place stay separate. Needed for results of repair, whose copies lie
   /// at the same place as their originals.
   bool weld = true;
+  FaceRule faces = FaceRule::kSplit;  ///< whether concave faces are split
 };
 
 /// Kinds of changes that repair makes.
@@ -46,6 +49,7 @@ struct RepairAction {
 /// Changes that repair made, and origins of the elements of its output.
 struct RepairReport {
   std::array<RepairAction, kRepairKindCount> actions;
+  FaceSplitReport faces;           ///< split faces: no change in the sense of changed()
   std::vector<Index> pointOrigin;  ///< input point of each point of the output
   std::vector<Index> faceOrigin;   ///< input face of each face of the output
   std::vector<Index> weldedTo;     ///< for each input point, the one it was welded to, or itself
@@ -66,9 +70,11 @@ std::string summary(const RepairReport& report);
 /// Steps, each described at its function:
 ///  1. weld (weld.h);
 ///  2. clean each face: in a walk around it, each return to a vertex closes a loop; loops of three
-///     corners or more become faces, shorter ones (repeats, spikes) are dropped. A keyhole face
-///     becomes its outline and a lid on its hole;
-///  3. drop duplicate faces: the first one stays;
+///     corners or more become faces, shorter ones (repeats, spikes, bridges) are dropped. If loops
+///     lie in each other, as in a keyhole, the face is split into convex faces that leave the holes
+///     free (convex_faces.h);
+///  3. drop duplicate faces: the first one stays; then split concave faces, those that are not
+///     star-shaped (star_shaped.h), into convex ones, if the options say so;
 ///  4. cut edges of three or more faces into sheets, and vertices into one copy per fan
 ///     (manifold.h);
 ///  5. chord interior vertices of two faces (chord.h), and repeat from 3 while that is needed;
@@ -79,7 +85,7 @@ std::string summary(const RepairReport& report);
 /// Colours are dropped; soundMesh (sound.h) keeps them. Vertices and faces keep their order; copies
 /// follow at the end, in the order of their originals. A face without faults keeps its corners as
 /// they are. The winding of faces does not matter. Copies lie at the place of their original, so a
-/// second run changes nothing if it does not weld.
+/// second run that neither welds nor splits changes nothing.
 ///
 /// @throws MeshError   the arrays are not valid (requireValidArrays)
 /// @throws UsageError  the tolerance is negative or not finite

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/types.h"
+#include "libvox/mesh/flat_polygon.h"
 #include "libvox/mesh/polygon_mesh.h"
 
 #include <array>
@@ -34,6 +35,12 @@ struct TriangulationReport {
 /// Meisters 1975.
 void triangulate(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>& triangles,
                  TriangulationReport& report);
+
+/// The ear clipping of triangulate, for a projection of the caller's: a weakly simple polygon of 3
+/// corners or more that runs counter-clockwise there.
+/// @return false if ears ran out, so that the rest became a fan
+bool clipEars(std::span<const Vec3d> corners, std::span<const FlatPoint> flat,
+              std::vector<std::array<Index, 3>>& triangles);
 
 /// Cuts faces of meshes into triangles. Keeps work space and a report. One object per thread.
 class FaceTriangulator {

@@ -4,9 +4,9 @@
 // orientations are exact. A grid finds the vertices near an ear. If a vertex blocks an ear, the ear
 // waits until this vertex becomes convex, so that ears are not tried again in vain.
 
-#include "libvox/voxelize/triangulate.h"
+#include "libvox/mesh/triangulate.h"
 
-#include "libvox/mesh/area_vector.h"
+#include "libvox/mesh/flat_polygon.h"
 
 #include <Eigen/Geometry>
 
@@ -17,46 +17,6 @@
 
 namespace vox {
 namespace {
-
-__extension__ using Int128 = __int128;
-
-constexpr double kLatticeReach = 1LL << 50;  // cross products stay below 2^105
-
-/// A position projected along the normal.
-struct Flat {
-  std::int64_t x, y;
-  bool operator==(const Flat&) const = default;
-};
-
-/// Positive if a, b, c turn left, negative if they turn right, 0 if they are on a line.
-Int128 turn(const Flat& a, const Flat& b, const Flat& c) {
-  return Int128{b.x - a.x} * (c.y - a.y) - Int128{b.y - a.y} * (c.x - a.x);
-}
-
-Vec3d newellNormal(std::span<const Vec3d> corners) {
-  return twiceAreaVector(corners.size(), [&](std::size_t i) { return corners[i]; });
-}
-
-/// The corners projected along the normal, so that they run counter-clockwise, and scaled so that
-/// they are at most kLatticeReach from corner 0.
-std::vector<Flat> flattened(std::span<const Vec3d> corners) {
-  Vec3d normal = newellNormal(corners).stableNormalized();
-  if (!(normal.squaredNorm() > 0.5)) normal = Vec3d::UnitZ();  // no area: any normal is as good
-  const Vec3d right = normal.unitOrthogonal();
-  const Vec3d up = normal.cross(right);
-  double reach = 0;
-  for (const Vec3d& corner : corners)
-    reach = std::max(reach, (corner - corners[0]).lpNorm<Eigen::Infinity>());
-  // A position projects onto a unit vector with at most sqrt(3) of its largest coordinate.
-  const double scale = reach > 0 ? kLatticeReach / (2 * reach) : 0;
-  std::vector<Flat> flat;
-  flat.reserve(corners.size());
-  for (const Vec3d& corner : corners) {
-    const Vec3d offset = scale * (corner - corners[0]);
-    flat.push_back({std::llrint(right.dot(offset)), std::llrint(up.dot(offset))});
-  }
-  return flat;
-}
 
 /// Quality of an ear: first its smallest angle, in coarse steps, then a short diagonal. (By the
 /// angle alone, all ears of a round polygon would be alike, and a fan would result.)
@@ -81,30 +41,30 @@ Shape shapeOf(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 /// Vertices sorted into the cells of a square grid, about one per cell.
 class VertexGrid {
  public:
-  explicit VertexGrid(const std::vector<Flat>& vertices) {
+  explicit VertexGrid(std::span<const FlatPoint> vertices) {
     low_ = vertices[0];
-    Flat high = vertices[0];
-    for (const Flat& v : vertices) {
+    FlatPoint high = vertices[0];
+    for (const FlatPoint& v : vertices) {
       low_ = {std::min(low_.x, v.x), std::min(low_.y, v.y)};
       high = {std::max(high.x, v.x), std::max(high.y, v.y)};
     }
     columns_ = static_cast<std::int64_t>(std::sqrt(static_cast<double>(vertices.size()))) + 1;
     cell_ = std::max(high.x - low_.x, high.y - low_.y) / columns_ + 1;
     starts_.assign(static_cast<std::size_t>(columns_ * columns_) + 1, 0);
-    for (const Flat& v : vertices)
+    for (const FlatPoint& v : vertices)
       ++starts_[cellOf(column(v.x - low_.x), column(v.y - low_.y)) + 1];
     for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
     vertices_.resize(vertices.size());
     std::vector<Index> next(starts_.begin(), starts_.end() - 1);
     for (Index i = 0; i < vertices.size(); ++i) {
-      const Flat& v = vertices[i];
+      const FlatPoint& v = vertices[i];
       vertices_[next[cellOf(column(v.x - low_.x), column(v.y - low_.y))]++] = i;
     }
   }
 
   /// The first vertex in the cells of a box for which wanted(vertex) is true, or kNone.
   template <class Wanted>
-  Index find(const Flat& low, const Flat& high, Wanted&& wanted) const {
+  Index find(const FlatPoint& low, const FlatPoint& high, Wanted&& wanted) const {
     for (std::int64_t y = column(low.y - low_.y); y <= column(high.y - low_.y); ++y)
       for (std::int64_t x = column(low.x - low_.x); x <= column(high.x - low_.x); ++x) {
         const std::size_t cell = cellOf(x, y);
@@ -120,7 +80,7 @@ class VertexGrid {
     return static_cast<std::size_t>(y * columns_ + x);
   }
 
-  Flat low_;
+  FlatPoint low_;
   std::int64_t columns_, cell_;
   std::vector<Index> starts_;  ///< for each cell, the first of its entries in vertices_
   std::vector<Index> vertices_;
@@ -128,9 +88,9 @@ class VertexGrid {
 
 class EarClipper {
  public:
-  explicit EarClipper(std::span<const Vec3d> corners)
+  EarClipper(std::span<const Vec3d> corners, std::span<const FlatPoint> flat)
       : corners_(corners),
-        flat_(flattened(corners)),
+        flat_(flat),
         grid_(flat_),
         vertices_(corners.size()),
         waiting_(corners.size()) {
@@ -205,13 +165,13 @@ class EarClipper {
   /// A vertex in the closed triangle at `tip`, or kNone. Only vertices that are not convex are
   /// tried: if there is any vertex in the triangle, there is such a vertex.
   Index blockerOf(Index tip) const {
-    const Flat& a = flat_[vertices_[tip].before];
-    const Flat& b = flat_[tip];
-    const Flat& c = flat_[vertices_[tip].after];
-    const Flat low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
-    const Flat high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
+    const FlatPoint& a = flat_[vertices_[tip].before];
+    const FlatPoint& b = flat_[tip];
+    const FlatPoint& c = flat_[vertices_[tip].after];
+    const FlatPoint low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
+    const FlatPoint high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
     return grid_.find(low, high, [&](Index i) {
-      const Flat& p = flat_[i];
+      const FlatPoint& p = flat_[i];
       if (vertices_[i].convex || vertices_[i].gone) return false;
       if (p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y) return false;
       if (p == a || p == b || p == c) return false;  // a corner of the triangle, or at its place
@@ -233,7 +193,7 @@ class EarClipper {
   }
 
   std::span<const Vec3d> corners_;
-  std::vector<Flat> flat_;
+  std::span<const FlatPoint> flat_;
   VertexGrid grid_;
   std::vector<Vertex> vertices_;
   std::vector<std::vector<Ear>> waiting_;  ///< for each vertex, the ears that it blocks
@@ -243,7 +203,7 @@ class EarClipper {
 /// Cuts a quad along a diagonal.
 /// @return whether a diagonal lies inside
 bool splitQuad(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>& triangles) {
-  const Vec3d normal = newellNormal(corners);
+  const Vec3d normal = twiceAreaVector(corners);
   const auto turnsLeft = [&](std::size_t a, std::size_t b, std::size_t c) {
     return (corners[b] - corners[a]).cross(corners[c] - corners[a]).dot(normal) > 0;
   };
@@ -260,6 +220,11 @@ bool splitQuad(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>
 
 }  // namespace
 
+bool clipEars(std::span<const Vec3d> corners, std::span<const FlatPoint> flat,
+              std::vector<std::array<Index, 3>>& triangles) {
+  return EarClipper(corners, flat).clip(triangles);
+}
+
 void triangulate(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>& triangles,
                  TriangulationReport& report) {
   if (corners.size() < 3) return;
@@ -268,7 +233,7 @@ void triangulate(std::span<const Vec3d> corners, std::vector<std::array<Index, 3
   else if (corners.size() == 4)
     report.fanned += !splitQuad(corners, triangles);
   else
-    report.fanned += !EarClipper(corners).clip(triangles);
+    report.fanned += !clipEars(corners, flattened(corners, twiceAreaVector(corners)), triangles);
 }
 
 void FaceTriangulator::add(const PolygonMesh& mesh, Index f,
