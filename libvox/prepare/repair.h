@@ -10,16 +10,18 @@
 namespace vox {
 
 struct RepairOptions {
-  /// Distance in world units; 0 welds only points with equal coordinates (-0 equals +0).
+  /// Distance in world units; 0 welds only points with equal coordinates (-0 equals +0), and
+  /// stitches vertices that miss an edge by rounding alone (stitch.h).
   double weldTolerance = 0;
-  /// false: points at the same place stay separate. Needed for results of repair, whose copies lie
-  /// at the same place as their originals.
+  /// false: points at the same place stay separate, and nothing is stitched. Needed for results of
+  /// repair, whose copies lie at the same place as their originals.
   bool weld = true;
 };
 
 /// Kinds of changes that repair makes.
 enum class RepairKind {
   kWeldedVertex,       ///< a vertex replaced by one at (nearly) the same place
+  kStitchedVertex,     ///< a boundary vertex that entered a face on whose edge it lies
   kRepeatedCorner,     ///< a face that lost repeats (v v) and spikes (a b a)
   kSplitFace,          ///< a face that touched itself, cut into loops
   kDegenerateFace,     ///< a face without three distinct vertices, dropped
@@ -31,7 +33,7 @@ enum class RepairKind {
   kVanishedComponent,  ///< a component of which chording left no face
   kRemovedVertex,      ///< a vertex without a face in the end, removed
 };
-inline constexpr std::size_t kRepairKindCount = 11;
+inline constexpr std::size_t kRepairKindCount = 12;
 
 /// Short name for JSON, such as "welded vertices".
 std::string repairName(RepairKind kind);
@@ -68,7 +70,7 @@ std::string summary(const RepairReport& report);
 ///  2. clean each face: in a walk around it, each return to a vertex closes a loop; loops of three
 ///     corners or more become faces, shorter ones (repeats, spikes) are dropped. A keyhole face
 ///     becomes its outline and a lid on its hole;
-///  3. drop duplicate faces: the first one stays;
+///  3. drop duplicate faces: the first one stays; then stitch T-junctions (stitch.h);
 ///  4. cut edges of three or more faces into sheets, and vertices into one copy per fan
 ///     (manifold.h);
 ///  5. chord interior vertices of two faces (chord.h), and repeat from 3 while that is needed;
