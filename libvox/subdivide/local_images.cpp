@@ -23,7 +23,7 @@ void LocalImages::set(std::span<const Index> faces) {
   images_.clear();
   vFaces_.clear();
   vFacePoints_.clear();
-  faces_ = faces;
+  faces_.assign(faces.begin(), faces.end());
 
   for (const Index f : faces) addFace(f);
   ownSlots_ = static_cast<Index>(images_.size());
