@@ -52,6 +52,7 @@ Json toJson(const VolumeOptions& volume) {
           {"edge", orNull(kEdgeNames, volume.edge)},
           {"gain", orNull(volume.gain)},
           {"open_mesh", orNull(kOpenMeshNames, volume.openMesh)},
+          {"close", orNull(volume.close)},
           {"band", bandJson(volume.band)},
           {"tolerance", orNull(volume.tolerance)},
           {"half", orNull(volume.half)},

@@ -210,6 +210,15 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .type("error|surface|unsigned")
       .group("Output");
   command
+      .add("--close", arguments.close,
+           "Close openings of the voxel surface that are narrower than N voxels before inside and "
+           "outside are told apart, in --fill solid and the grid surface, if they lead to a space "
+           "at least N voxels wide. Closed meshes stay as they are, and the voxels of the surface, "
+           "too (default: the scene's, or 0: none)")
+      .range(0, kWidestClosing)
+      .type("N")
+      .group("Output");
+  command
       .add(
           "--band", [&arguments](const std::string& text) { arguments.band = parseBand(text); },
           "How far from the surface the grid surface holds distances, in voxels: on both sides, or "
@@ -261,6 +270,7 @@ VolumeOptions parseVolume(const VolumeArguments& arguments) {
   volume.up = parseNamed("--up", kUpAxisNames, arguments.up);
   volume.half = arguments.half;
   volume.gain = arguments.gain;
+  volume.close = arguments.close;
   volume.band = arguments.band;
   volume.tolerance = arguments.tolerance;
   return volume;

@@ -54,7 +54,7 @@ void addVoxelizationOptions(const Command& command, VoxelizationArguments& argum
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
 
-/// --fill, --edge, --gain, --open-mesh, --band, --tolerance, --half, --compression, --target and
+/// --fill, --edge, --gain, --open-mesh, --close, --band, --tolerance, --half, --compression, --target and
 /// --up, as typed.
 struct VolumeArguments {
   std::string fill;
@@ -64,6 +64,7 @@ struct VolumeArguments {
   std::string target;
   std::string up;
   std::optional<double> gain;
+  std::optional<int> close;
   std::optional<BandWidths> band;
   std::optional<double> tolerance;
   std::optional<bool> half;

@@ -31,6 +31,7 @@ void forEachField(Options& options, Visit&& visit) {
   visit("edge", options.volume.edge, kEdgeNames);
   visit("gain", options.volume.gain);
   visit("open-mesh", options.volume.openMesh, kOpenMeshNames);
+  visit("close", options.volume.close);
   visit("band", options.volume.band);
   visit("tolerance", options.volume.tolerance);
   visit("half", options.volume.half);

@@ -68,12 +68,15 @@ std::optional<BandWidths> bandWidthsIn(std::string_view text);
 
 inline constexpr double kDefaultBand = 3;  ///< voxels
 
+inline constexpr int kWidestClosing = 1000;  ///< voxels
+
 /// How to make volumes. A value that is not set comes from the scene, else from the default.
 struct VolumeOptions {
   std::optional<Fill> fill;                ///< default: kSurface
   std::optional<Edge> edge;                ///< default: kHard
   std::optional<double> gain;              ///< value of `density` at its voxels; see densityValue()
   std::optional<OpenMesh> openMesh;        ///< default: kSurface
+  std::optional<int> close;                ///< voxels; default: 0, nothing is closed
   std::optional<BandWidths> band;          ///< default: kDefaultBand on both sides
   std::optional<double> tolerance;         ///< voxels; has no effect: distances are exact
   std::optional<bool> half;                ///< true: values of 16 bits; default: false, 32 bits
@@ -87,6 +90,7 @@ struct VolumeSettings {
   Fill fill = Fill::kSurface;
   Edge edge = Edge::kHard;
   OpenMesh openMesh = OpenMesh::kSurface;
+  int close = 0;  ///< openings of the voxels that are narrower are closed (volume/close.h)
   BandWidths band = kDefaultBand;
   std::optional<double> tolerance = {};  ///< voxels; has no effect
   bool half = false;

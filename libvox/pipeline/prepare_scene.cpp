@@ -107,8 +107,8 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
           prepareObject(scene, request, i, transform, budget, progress, report));
   }
   if (needsInside(request))
-    for (const PreparedSurface& surface : prepared.surfaces)
-      requireInside(surface, request.volume.openMesh, transform, report.warnings);
+    for (PreparedSurface& surface : prepared.surfaces)
+      requireInside(surface, request.volume, transform, report.warnings);
   prepared.estimate = estimateGrids(prepared.surfaces, request.grids, request.volume);
   prepared.estimate.voxelSize = report.voxelSize;
   prepared.estimate.refusal = refusalOf(prepared.estimate, box.longestSide(), budget);

@@ -44,6 +44,7 @@ VolumeSettings volumeOf(const VolumeOptions& first, const VolumeOptions& second)
   choose(&VolumeOptions::fill, all.fill);
   choose(&VolumeOptions::edge, all.edge);
   choose(&VolumeOptions::openMesh, all.openMesh);
+  choose(&VolumeOptions::close, all.close);
   choose(&VolumeOptions::band, all.band);
   choose(&VolumeOptions::half, all.half);
   choose(&VolumeOptions::target, all.target);

@@ -18,11 +18,13 @@ class Progress;
 /// with the part 0 are inactive. What is inside is decided as in solidOf (inside.h), but within
 /// half a voxel of the surface by the side of the closest point.
 /// @param mask  active voxels of all surfaces, without tiles
+/// @param warnings  as for solidOf
 /// @throws LimitError
 /// @throws Cancelled
 std::shared_ptr<openvdb::FloatGrid> softDensityGrid(const openvdb::MaskTree& mask,
                                                     std::span<const PreparedSurface> surfaces,
-                                                    Fill fill, float value, MemoryBudget& budget,
-                                                    Progress& progress);
+                                                    const VolumeSettings& settings, float value,
+                                                    MemoryBudget& budget, Progress& progress,
+                                                    std::vector<std::string>& warnings);
 
 }  // namespace vox
