@@ -75,6 +75,8 @@ Json optionsJson(const FinishedRun& run) {
        smoothing.interpolate ? Json(nameIn(kInterpolateNames, *smoothing.interpolate)) : Json()},
       {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
       {"weld", orNull(options.weldTolerance)},
+      {"drop_components",
+       options.dropComponents ? Json(componentLimitText(*options.dropComponents)) : Json()},
       {"strict", orNull(options.strict)},
       {"until", options.until ? Json(stopRuleName(*options.until)) : Json()},
       {"voxelize", options.voxelize ? Json(nameIn(kVoxelizeNames, *options.voxelize)) : Json()},

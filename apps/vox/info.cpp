@@ -8,6 +8,8 @@
 #include "libvox/io/input_file.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/pipeline/request.h"
+#include "libvox/prepare/debris.h"
+#include "libvox/prepare/gaps.h"
 #include "libvox/prepare/sound.h"
 
 #include <algorithm>
@@ -24,6 +26,7 @@ struct InfoArguments {
   std::vector<std::string> files;
   bool json = false;
   std::optional<double> weldTolerance;
+  std::optional<ComponentLimit> dropComponents;
 };
 
 std::map<DefectKind, std::uint64_t> countByKind(const std::vector<Defect>& defects) {
@@ -76,6 +79,19 @@ Json toJson(const SoundReport& report) {
   return json;
 }
 
+Json toJson(const GapReport& gaps) {
+  const auto gap = [](const Gap& g) {
+    return Json{{"width", g.width}, {"at", {g.at.x(), g.at.y(), g.at.z()}}};
+  };
+  Json json = {{"count", gaps.count}};
+  if (gaps.count == 0) return json;
+  json["widest"] = gap(gaps.widest);
+  json["narrowest"] = gap(gaps.narrowest);
+  json["weld"] = gaps.weld ? Json(*gaps.weld) : Json();
+  json["closed_by_weld"] = gaps.closes;
+  return json;
+}
+
 Json toJson(const GridSummary& grid) {
   return {{"name", grid.name},
           {"type", grid.type},
@@ -123,8 +139,8 @@ void print(const std::string& title, const MeshSummary& mesh) {
             << "    surface           " << surfaceText(mesh) << '\n'
             << "    corners per face  " << histogramText(mesh.faceSizes) << '\n'
             << "    valence           " << histogramText(mesh.valences) << '\n'
-            << "    box               (" << mesh.box.low.transpose() << ") to ("
-            << mesh.box.high.transpose() << ")\n";
+            << "    box               " << exactPoint(mesh.box.low) << " to "
+            << exactPoint(mesh.box.high) << '\n';
   if (!mesh.closed)
     std::cout << "    boundary          " << boundaryText(mesh.boundaryLoops) << '\n';
   for (const auto& [kind, count] : countByKind(mesh.defects))
@@ -134,26 +150,37 @@ void print(const std::string& title, const MeshSummary& mesh) {
 }
 
 /// A mesh as it is, the repairs of preparation, and the mesh after them.
-Json describe(const SceneObject& object, double weldTolerance, bool json) {
+Json describe(const SceneObject& object, const ObjectPreparation& preparation, bool json) {
   const MeshSummary input = summarize(object.mesh);
   RepairOptions options;
-  options.weldTolerance = weldTolerance;
+  options.weldTolerance = preparation.weldTolerance;
+  const ComponentLimit& limit = preparation.dropComponents;
+  options.noteUnused = limit.dropsNothing();
+  DebrisReport debris;
   SoundReport report;
-  const MeshSummary prepared = summarize(soundMesh(object.mesh, options, report));
+  const PolygonMesh kept =
+      limit.dropsNothing() ? object.mesh : withoutDebris(object.mesh, limit, options, debris);
+  const MeshSummary prepared = summarize(soundMesh(kept, options, report));
+  const GapReport gaps = prepared.closed ? GapReport() : measureGaps(kept, options);
   if (json) {
     Json all = {{"name", object.name}};
     all.update(toJson(input));
+    all["dropped"] = {{"components", debris.dropped}, {"faces", debris.droppedFaces}};
     all["repair"] = toJson(report);
     all["prepared"] = toJson(prepared);
+    all["gaps"] = toJson(gaps);
     return all;
   }
   print("mesh " + object.name, input);
+  const std::string dropped = summary(debris);
+  if (!dropped.empty()) std::cout << "    debris            " << dropped << '\n';
   const std::string done = summary(report);
   std::cout << "    repair            " << (done.empty() ? "none needed" : done) << '\n';
   if (prepared.faces == 0)
     std::cout << "  after repair: nothing is left\n";
-  else if (!done.empty())
+  else if (!done.empty() || !dropped.empty())
     print("after repair", prepared);
+  if (gaps.count > 0) std::cout << "    gaps              " << summary(gaps) << '\n';
   return {};
 }
 
@@ -184,9 +211,10 @@ Json describe(const std::string& file, const InfoArguments& options) {
   const Scene scene = readScene(file);
   PreparationOptions preparation;
   preparation.weldTolerance = options.weldTolerance;
+  preparation.dropComponents = options.dropComponents;
   const std::vector<ObjectPreparation> prepared = preparationsOf(scene, preparation);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    all["meshes"].push_back(describe(scene.objects[i], prepared[i].weldTolerance, options.json));
+    all["meshes"].push_back(describe(scene.objects[i], prepared[i], options.json));
   return all;
 }
 
@@ -205,6 +233,7 @@ Action addInfo(CLI::App& app) {
   command.add("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)").required();
   command.addFlag("--json", options->json, "Print JSON");
   addWeldOption(command, options->weldTolerance);
+  addDropOption(command, options->dropComponents);
   return [options] { return runInfo(*options); };
 }
 

@@ -285,6 +285,25 @@ void addWeldOption(const Command& command, std::optional<double>& tolerance) {
       .group("Repair");
 }
 
+void addDropOption(const Command& command, std::optional<ComponentLimit>& limit) {
+  command
+      .add(
+          "--drop-components",
+          [&limit](const std::string& text) {
+            limit = componentLimitIn(text);
+            if (!limit)
+              throw UsageError(
+                  "--drop-components must be below=N (faces), size=X (world units) "
+                  "or both with a comma, not '" +
+                  text + "'");
+          },
+          "Leave out debris: components of fewer than N faces, or with a box whose diagonal is "
+          "shorter than X world units; --dim counts along what remains (default: the scene's, or "
+          "none)")
+      .type("below=N|size=X")
+      .group("Repair");
+}
+
 void addStrictOption(const Command& command, std::optional<bool>& strict) {
   command
       .addFlag("--strict", strict,
@@ -327,6 +346,7 @@ ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOp
   parsed.voxelize = parseNamed("--voxelize", kVoxelizeNames, arguments.voxelization.voxelize);
   parsed.separation = parseSeparation(arguments.voxelization);
   parsed.weldTolerance = arguments.weldTolerance;
+  parsed.dropComponents = arguments.dropComponents;
   parsed.strict = arguments.strict;
   parsed.surface = parseSubmeshes(arguments.submeshes);
   if (!arguments.texture.empty()) parsed.texture = parseTexture(arguments.texture);

@@ -54,7 +54,8 @@ void addVoxelizationOptions(const Command& command, VoxelizationArguments& argum
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
 
-/// --fill, --edge, --gain, --open-mesh, --close, --band, --tolerance, --half, --compression, --target and
+/// --fill, --edge, --gain, --open-mesh, --close, --band, --tolerance, --half, --compression,
+/// --target and
 /// --up, as typed.
 struct VolumeArguments {
   std::string fill;
@@ -79,6 +80,9 @@ VolumeOptions parseVolume(const VolumeArguments& arguments);
 /// --weld.
 void addWeldOption(const Command& command, std::optional<double>& tolerance);
 
+/// --drop-components.
+void addDropOption(const Command& command, std::optional<ComponentLimit>& limit);
+
 /// --strict; --strict=false overrides a scene.
 void addStrictOption(const Command& command, std::optional<bool>& strict);
 
@@ -97,6 +101,7 @@ struct ConversionArguments {
   SmoothingArguments smoothing;
   VoxelizationArguments voxelization;
   std::optional<double> weldTolerance;
+  std::optional<ComponentLimit> dropComponents;
   std::optional<bool> strict;
   SubmeshArguments submeshes;
   std::string texture;

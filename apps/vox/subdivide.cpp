@@ -23,6 +23,7 @@ struct SubdivideArguments {
   int levels = 0;
   SmoothingArguments smoothing;
   std::optional<double> weldTolerance;
+  std::optional<ComponentLimit> dropComponents;
   std::optional<bool> strict;
   CommonOptions common;
 };
@@ -51,7 +52,7 @@ void write(const SubdivideArguments& options, const PolygonMesh& mesh, Progress&
 int runSubdivide(const SubdivideArguments& options) {
   if (!isStdout(options.output)) meshFormatFor(options.output);
   const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
-                                          options.strict};
+                                          options.dropComponents, options.strict};
   ProgressBar bar(!options.common.quiet);
   const Scene scene = readScene(options.input);
   requireOutput(options.output, options.common, scene);
@@ -97,6 +98,7 @@ Action addSubdivide(CLI::App& app) {
       .group("Output");
   addSmoothingOptions(command, options->smoothing);
   addWeldOption(command, options->weldTolerance);
+  addDropOption(command, options->dropComponents);
   addStrictOption(command, options->strict);
   addCommonOptions(command, options->common);
   return [options] { return runSubdivide(*options); };

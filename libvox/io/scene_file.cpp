@@ -56,10 +56,10 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
 }
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(
-      text, table, "[convert]",
-      {"dim", "voxel_size", "grids", "fill", "edge", "gain", "open_mesh", "close", "band",
-       "tolerance", "half", "compression", "target", "up", "until", "voxelize", "weld", "strict"});
+  requireKnownKeys(text, table, "[convert]",
+                   {"dim", "voxel_size", "grids", "fill", "edge", "gain", "open_mesh", "close",
+                    "band", "tolerance", "half", "compression", "target", "up", "until", "voxelize",
+                    "weld", "drop_components", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -76,6 +76,8 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
     scene.weldTolerance = requireNumber(text, *weld, "weld");
     if (*scene.weldTolerance < 0) text.fail(*weld, "weld must be 0 or more");
   }
+  if (const auto* drop = table.get("drop_components"))
+    scene.dropComponents = requireComponentLimit(text, *drop);
   if (const auto* strict = table.get("strict"))
     scene.strict = requireBoolean(text, *strict, "strict");
 }

@@ -26,6 +26,7 @@ void forEachField(Options& options, Visit&& visit) {
   visit("interpolate", options.smoothing.interpolate, kInterpolateNames);
   visit("interpolated-vertices", options.smoothing.interpolatedVertices);
   visit("weld", options.weldTolerance);
+  visit("drop-components", options.dropComponents);
   visit("texture", options.texture);
   visit("fill", options.volume.fill, kFillNames);
   visit("edge", options.volume.edge, kEdgeNames);
@@ -67,6 +68,9 @@ class Writer {
     if (!band.isSymmetric()) text_ << ',' << band.out;
   }
   void write(const char* key, const TextureSpec& texture) { write(key, textureText(texture)); }
+  void write(const char* key, const ComponentLimit& limit) {
+    write(key, componentLimitText(limit));
+  }
   void write(const char* key, const StopRule& rule) { write(key, stopRuleName(rule)); }
   template <class Enum, std::size_t N>
   void write(const char* key, Enum value, const NameTable<Enum, N>& names) {
@@ -125,6 +129,9 @@ class Reader {
   }
   bool read(std::optional<StopRule>& field) const {
     return value_ && take(stopRuleNamed(*value_), field);
+  }
+  bool read(std::optional<ComponentLimit>& field) const {
+    return value_ && take(componentLimitIn(*value_), field);
   }
   bool read(std::optional<BandWidths>& field) const {
     return value_ && take(bandWidthsIn(*value_), field);

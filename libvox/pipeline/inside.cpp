@@ -11,6 +11,7 @@
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/refined_polygons.h"
 #include "libvox/pipeline/sheets.h"
+#include "libvox/prepare/gaps.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/volume/fill.h"
 #include "libvox/volume/winding.h"
@@ -44,8 +45,8 @@ std::string describeOpen(const PreparedSurface& surface,
   text << surface.name << ": " << count << " of its " << components.size() << " component"
        << (components.size() == 1 ? "" : "s") << (count == 1 ? " has" : " have")
        << " no inside; the first, of " << first.faces.size() << " face"
-       << (first.faces.size() == 1 ? "" : "s") << ", is " << (open ? "open" : "one-sided")
-       << " at (" << at.x() << ", " << at.y() << ", " << at.z() << ")";
+       << (first.faces.size() == 1 ? "" : "s") << ", is " << (open ? "open" : "one-sided") << " at "
+       << exactPoint(at);
   return text.str();
 }
 
@@ -148,10 +149,13 @@ PolygonMesh trianglesOfLevel(const PreparedSurface& surface, const std::vector<I
 }
 
 void requireInside(PreparedSurface& surface, const VolumeSettings& settings,
-                   const GridTransform& transform, std::vector<std::string>& warnings) {
+                   const GridTransform& transform, const std::function<std::string()>& describeGaps,
+                   std::vector<std::string>& warnings) {
   surface.noInside = describeOpen(surface, componentsOf(surface.base), transform);
-  if (!surface.noInside.empty() && settings.close == 0)
-    refuseOrWarn(surface.noInside, settings.openMesh, warnings);
+  if (surface.noInside.empty()) return;
+  const std::string gaps = describeGaps();
+  if (!gaps.empty()) surface.noInside += "; " + gaps;
+  if (settings.close == 0) refuseOrWarn(surface.noInside, settings.openMesh, warnings);
 }
 
 Solid solidOf(const openvdb::MaskTree& active, std::span<const PreparedSurface> surfaces,

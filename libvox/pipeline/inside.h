@@ -7,6 +7,7 @@
 #include "libvox/pipeline/prepared_surface.h"
 #include "libvox/volume/close.h"
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,9 +20,11 @@ class Progress;
 
 /// Sets `noInside` of an object, if it has components without an inside. Unless openings are to be
 /// closed, kError then refuses the object, and other values of `openMesh` add a warning.
+/// @param describeGaps  called if such a component is open; what it says is added to `noInside`
 /// @throws MeshError
 void requireInside(PreparedSurface& surface, const VolumeSettings& settings,
-                   const GridTransform& transform, std::vector<std::string>& warnings);
+                   const GridTransform& transform, const std::function<std::string()>& describeGaps,
+                   std::vector<std::string>& warnings);
 
 /// The inside of all objects.
 struct Solid {

@@ -8,6 +8,8 @@
 #include "libvox/core/progress.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/pipeline/work.h"
+#include "libvox/prepare/debris.h"
+#include "libvox/prepare/gaps.h"
 #include "libvox/prepare/sound.h"
 
 #include <cmath>
@@ -40,18 +42,41 @@ struct VertexOrigin {
   std::vector<Index> of;        ///< for each prepared vertex: an input vertex
 };
 
+RepairOptions repairOptionsOf(const ObjectPreparation& preparation) {
+  RepairOptions repair;
+  repair.weldTolerance = preparation.weldTolerance;
+  repair.noteUnused = preparation.dropComponents.dropsNothing();  // dropped faces leave vertices
+  return repair;
+}
+
+/// The mesh of an object without debris.
+/// @throws MeshError  nothing is left
+PolygonMesh keptMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
+                       DebrisReport& report) {
+  if (preparation.dropComponents.dropsNothing()) return object.mesh;
+  PolygonMesh kept =
+      withoutDebris(object.mesh, preparation.dropComponents, repairOptionsOf(preparation), report);
+  if (kept.faceCount() == 0)
+    throw MeshError("all " + std::to_string(report.components) +
+                    " components would be dropped; the largest has " +
+                    std::to_string(report.mostFaces) + " faces and a box whose diagonal is " +
+                    exactNumber(report.largestDiagonal));
+  return kept;
+}
+
 /// The mesh of an object made sound; a warning tells what was done to it.
 PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
                         VertexOrigin& origin, std::vector<std::string>& warnings) {
-  RepairOptions repair;
-  repair.weldTolerance = preparation.weldTolerance;
+  DebrisReport debris;
   SoundReport report;
-  PolygonMesh mesh = soundMesh(object.mesh, repair, report);
+  PolygonMesh mesh =
+      soundMesh(keptMeshOf(object, preparation, debris), repairOptionsOf(preparation), report);
   const std::string done = summary(report);
   if (preparation.strict && !done.empty())
     throw MeshError("needs repair, which strict forbids: " + firstAction(report) +
                     "; in all: " + done);
   if (mesh.faceCount() == 0) throw MeshError("nothing is left after repair: " + done);
+  if (debris.dropped > 0) warnings.push_back(object.name + ": " + summary(debris));
   if (!done.empty()) warnings.push_back(object.name + ": " + done);
   origin.weldedTo = std::move(report.repair.weldedTo);
   origin.of = std::move(report.orient.pointOrigin);
@@ -182,6 +207,19 @@ SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel l
 void requireValidScene(const Scene& scene) {
   for (const SceneObject& object : scene.objects)
     namingObject(scene, object, [&] { requireValidArrays(object.mesh); });
+}
+
+Box keptBox(const Scene& scene, const SceneObject& object, const ObjectPreparation& preparation) {
+  return namingObject(scene, object, [&] {
+    DebrisReport unused;
+    return usedBox(keptMeshOf(object, preparation, unused));
+  });
+}
+
+std::string gapsOf(const SceneObject& object, const ObjectPreparation& preparation) {
+  DebrisReport unused;
+  return summary(
+      measureGaps(keptMeshOf(object, preparation, unused), repairOptionsOf(preparation)));
 }
 
 PreparedObject prepare(const Scene& scene, const SceneObject& object,

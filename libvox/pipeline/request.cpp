@@ -32,6 +32,8 @@ ObjectPreparation preparationOf(const Scene& scene, const SceneObject& object,
   result.interpolate = chosen.interpolate.value_or(result.interpolate);
   if (chosen.interpolatedVertices) result.interpolatedVertices = *chosen.interpolatedVertices;
   result.weldTolerance = firstSet({options.weldTolerance, scene.weldTolerance});
+  result.dropComponents =
+      firstSet({options.dropComponents, object.dropComponents, scene.dropComponents});
   result.strict = firstSet({options.strict, scene.strict});
   return result;
 }

@@ -33,6 +33,7 @@ struct ObjectPreparation {
   Interpolate interpolate = Interpolate::kNothing;
   std::vector<Index> interpolatedVertices = {};  ///< interior ones, besides `interpolate`
   double weldTolerance = 0;                      ///< world units
+  ComponentLimit dropComponents = {};            ///< components below it are left out
   bool strict = false;                           ///< a mesh that needs repair is refused
 
   /// True if the surface is to pass through some vertex.

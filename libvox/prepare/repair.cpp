@@ -285,7 +285,7 @@ PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport&
   cleanFaces(draft, report);
   makeManifold(draft, options, report);
   removeUnused(draft);
-  noteRemoved(draft, report);
+  if (options.noteUnused) noteRemoved(draft, report);
   report.pointOrigin = std::move(draft.pointOrigin);
   report.faceOrigin = std::move(draft.faceOrigin);
   return std::move(draft.mesh);

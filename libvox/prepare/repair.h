@@ -16,6 +16,8 @@ struct RepairOptions {
   /// false: points at the same place stay separate, and nothing is stitched. Needed for results of
   /// repair, whose copies lie at the same place as their originals.
   bool weld = true;
+  /// Whether vertices that no face of the input uses are noted in the report. They are removed.
+  bool noteUnused = true;
 };
 
 /// Kinds of changes that repair makes.
