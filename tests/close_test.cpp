@@ -31,9 +31,10 @@ MaskTree hollowBox() {
 }
 
 /// Without the voxels of a box.
-MaskTree opened(MaskTree surface, const CoordBBox& hole) {
-  for (auto at = hole.begin(); at != hole.end(); ++at) surface.setValueOff(*at);
-  return surface;
+MaskTree opened(const MaskTree& surface, const CoordBBox& hole) {
+  MaskTree open(surface);
+  for (auto at = hole.begin(); at != hole.end(); ++at) open.setValueOff(*at);
+  return open;
 }
 
 std::uint64_t solidVoxels(const MaskTree& surface, int width) {
@@ -100,9 +101,8 @@ TEST_CASE("an opening of k voxels closes if it is narrower than N", "[close]") {
 }
 
 TEST_CASE("several openings close at once, each at its narrowest place", "[close]") {
-  MaskTree box = hollowBox();
-  box = opened(box, CoordBBox(Coord(10, 10, 40), Coord(12, 12, 40)));
-  box = opened(box, CoordBBox(Coord(0, 20, 5), Coord(0, 21, 30)));
+  const MaskTree one = opened(hollowBox(), CoordBBox(Coord(10, 10, 40), Coord(12, 12, 40)));
+  const MaskTree box = opened(one, CoordBBox(Coord(0, 20, 5), Coord(0, 21, 30)));
   const Closure closure = closureOf(box, 5);
   CHECK(closure.openings == 2);
   CHECK(closure.voxelCount == 9 + 52);
@@ -113,8 +113,8 @@ TEST_CASE("several openings close at once, each at its narrowest place", "[close
 }
 
 TEST_CASE("grooves of the outside, closed surfaces and open sheets stay as they are", "[close]") {
-  MaskTree grooved = hollowBox();  // a groove of 2 x 5 voxels, with walls
-  grooved = opened(grooved, CoordBBox(Coord(0, 20, 40), Coord(40, 21, 40)));
+  // A groove of 2 x 5 voxels, with walls.
+  MaskTree grooved = opened(hollowBox(), CoordBBox(Coord(0, 20, 40), Coord(40, 21, 40)));
   for (int x = 0; x <= 40; ++x)
     for (int z = 35; z <= 40; ++z)
       for (const int y : {19, 20, 21, 22})

@@ -3,6 +3,7 @@
 #include "libvox/core/numbered.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/mesh/area.h"
+#include "libvox/grid/transform.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/prepare/enclosure.h"
 #include "libvox/subdivide/doo_sabin.h"
@@ -37,7 +38,7 @@ openvdb::FloatGrid::Ptr softDensity(const Scene& scene, const ConvertOptions& op
 }
 
 double voxelSizeFor(const PolygonMesh& mesh, int dim) {
-  return boxOf(test::oneObject(mesh)).longestSide() / dim;
+  return usedBox(mesh).longestSide() / dim;
 }
 
 /// Sum of the values of all voxels, in world units of volume.

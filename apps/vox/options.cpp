@@ -279,8 +279,9 @@ VolumeOptions parseVolume(const VolumeArguments& arguments) {
 void addWeldOption(const Command& command, std::optional<double>& tolerance) {
   command
       .add("--weld", tolerance,
-           "Join vertices up to this far apart, in world units (default: the scene's, or 0: those "
-           "at exactly the same place)")
+           "Join vertices up to this far apart, in world units, and put vertices onto edges of "
+           "other "
+           "faces as near as that (default: the scene's, or 0: only what coincides)")
       .type("TOL")
       .group("Repair");
 }

@@ -192,7 +192,7 @@ void findWeld(const PolygonMesh& mesh, const RepairOptions& options, std::vector
     std::from_chars(text, end.ptr, tolerance);
     if (tolerance <= options.weldTolerance) return;
     const Attempt result = attempt(mesh, options, tolerance);
-    if (result.loops >= report.count || result.faces < faces / 2) continue;
+    if (result.loops >= report.count || result.faces < faces - faces / 10) continue;
     report.weld = tolerance;
     report.closes = report.count - result.loops;
     return;
