@@ -26,7 +26,8 @@ struct Closure {
 /// surface. Places that it does not reach, but where it has room, are inside. From there and from
 /// the outside all other voxels are taken, layer by layer; where both meet, the opening is closed.
 /// The ball is an octagonal one, as wide as the voxels along the axes, and within 4 % along their
-/// diagonals.
+/// diagonals. A ball of an even width has no voxel as its centre: then the closing voxels may lie a
+/// voxel deeper.
 ///
 /// @param width  2 or more; with less nothing is narrower
 /// Memory and time are proportional to the voxels of the surface times the width. The result does
