@@ -2,8 +2,8 @@
 
 #include "libvox/core/numbered.h"
 #include "libvox/grid/openvdb.h"
-#include "libvox/mesh/area.h"
 #include "libvox/grid/transform.h"
+#include "libvox/mesh/area.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/prepare/enclosure.h"
 #include "libvox/subdivide/doo_sabin.h"
