@@ -478,6 +478,28 @@ expect 2 'weld' convert near.obj -o out.vdb --weld far
 expect 0 '' info near.obj --weld 0.5
 grep -q 'after repair: 4 vertices' stdout || fail "info --weld: $(cat stdout)"
 expect 2 'weld tolerance' info near.obj --weld -1
+
+# T-junctions, gaps, debris, openings. The bottom of this box at UTM coordinates is 0.01 too low.
+printf 'v %s\n' '500000.25 0 0' '500002.25 0 0' '500002.25 1 0' '500000.25 1 0' '500000.25 0 1' \
+  '500002.25 0 1' '500002.25 1 1' '500000.25 1 1' '500001.25 0 0' '500001.25 0 1' \
+  '500000.25 0 -0.01' '500002.25 0 -0.01' '500002.25 1 -0.01' '500000.25 1 -0.01' \
+  '0 0 0' '0.001 0 0' '0 0.001 0' >box.obj
+printf 'f %s\n' '11 14 13 12' '5 6 7 8' '1 9 10 5' '9 2 6 10' '2 3 7 6' '3 4 8 7' '4 1 5 8' '15 16 17' >>box.obj
+expect 3 'all 3 components would be dropped' convert box.obj -o box.vdb --drop-components below=100
+expect 0 '' info box.obj --drop-components below=2
+grep -q 'debris  *dropped 2 components of 2 faces' stdout || fail "info: no debris: $(cat stdout)"
+expect 0 '' info box.obj --drop-components size=0.1
+grep -q 'debris  *dropped 1 component of 1 face' stdout || fail "info: debris by size: $(cat stdout)"
+grep -q '500000.25' stdout || fail "info: digits are missing: $(cat stdout)"
+weld=$(sed -n 's/.*gaps .*--weld \([0-9.]*\) closes them$/\1/p' stdout)
+[ -n "$weld" ] || fail "info names no tolerance: $(cat stdout)"
+expect 0 '' convert box.obj -o box.vdb --drop-components size=0.1 --dim 40 --fill solid --until levels=0
+grep -q "no inside.*(500000.25, .*--weld $weld closes them" stderr || fail "convert names no gap: $(cat stderr)"
+expect 0 '' convert box.obj -o box.vdb --drop-components size=0.1 --dim 40 --fill solid --until levels=0 --weld "$weld" --force
+grep -q 'no inside' stderr && fail "--weld $weld does not close the box: $(cat stderr)"
+grep -q 'stitched . T-junction' stderr || fail "no word of stitching: $(cat stderr)"
+expect 2 'below=N' convert box.obj -o box.vdb --drop-components tiny
+expect 2 'close' convert box.obj -o box.vdb --close 5000
 expect 0 '' info nothing.obj
 grep -q 'nothing is left' stdout || fail "info of nothing: $(cat stdout)"
 

@@ -192,7 +192,8 @@ TEST_CASE("faces without area stay", "[repair]") {
   PolygonMesh mesh = test::sheet(2, 2);
   for (Vec3d& p : mesh.points) p = Vec3d(p.x(), 0, 0);
   for (std::size_t v = 0; v < mesh.points.size(); ++v) mesh.points[v].x() += 0.1 * double(v);
-  CHECK(test::sameMesh(repaired(mesh).mesh, mesh));
+  // Without welding: all vertices lie on one line, and would be stitched.
+  CHECK(test::sameMesh(repaired(mesh, {.weld = false}).mesh, mesh));
 }
 
 TEST_CASE("two tetrahedra that share a vertex come apart there", "[repair]") {

@@ -2,6 +2,7 @@
 
 #include "libvox/core/numbered.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/grid/transform.h"
 #include "libvox/mesh/area.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/prepare/enclosure.h"
@@ -43,7 +44,7 @@ openvdb::FloatGrid::Ptr softDensity(const Scene& scene, const ConvertOptions& op
 }
 
 double voxelSizeFor(const PolygonMesh& mesh, int dim) {
-  return boxOf(test::oneObject(mesh)).longestSide() / dim;
+  return usedBox(mesh).longestSide() / dim;
 }
 
 /// Sum of the values of all voxels, in world units of volume.

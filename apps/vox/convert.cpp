@@ -17,6 +17,7 @@
 #include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/input_file.h"
+#include "libvox/pipeline/refine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -138,7 +139,8 @@ void shareVoxelSize(const ConvertArguments& options, const std::vector<Frame>& f
     const Scene scene = readScene(frame.input, convertOptions.scale);
     if (!options.dryRun) requireOutputs(options, frame, scene);
     if (!resolution.isSet()) resolution = resolutionOf(scene, convertOptions);
-    box.add(boxOf(scene));
+    requireValidScene(scene);
+    box.add(boxOf(scene, preparationsOf(scene, convertOptions)));
   }
   convertOptions.voxelSize = transformFor(resolution, box).voxelSize;
   convertOptions.dim.reset();
@@ -205,6 +207,7 @@ Action addConvert(CLI::App& app) {
   addSmoothingOptions(command, options->conversion.smoothing);
   addVoxelizationOptions(command, options->conversion.voxelization);
   addWeldOption(command, options->conversion.weldTolerance);
+  addDropOption(command, options->conversion.dropComponents);
   addStrictOption(command, options->conversion.strict);
   command
       .add("--grids", options->grids,

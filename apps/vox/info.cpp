@@ -8,6 +8,8 @@
 #include "libvox/io/input_file.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/pipeline/request.h"
+#include "libvox/prepare/debris.h"
+#include "libvox/prepare/gaps.h"
 #include "libvox/prepare/sound.h"
 
 #include <algorithm>
@@ -26,6 +28,7 @@ struct InfoArguments {
   std::optional<double> scale;
   std::optional<double> weldTolerance;
   std::string faces;
+  std::optional<ComponentLimit> dropComponents;
 };
 
 std::map<DefectKind, std::uint64_t> countByKind(const std::vector<Defect>& defects) {
@@ -88,6 +91,19 @@ Json toJson(const FaceSplitReport& report) {
   return json;
 }
 
+Json toJson(const GapReport& gaps) {
+  const auto gap = [](const Gap& g) {
+    return Json{{"width", g.width}, {"at", {g.at.x(), g.at.y(), g.at.z()}}};
+  };
+  Json json = {{"count", gaps.count}};
+  if (gaps.count == 0) return json;
+  json["widest"] = gap(gaps.widest);
+  json["narrowest"] = gap(gaps.narrowest);
+  json["weld"] = gaps.weld ? Json(*gaps.weld) : Json();
+  json["closed_by_weld"] = gaps.closes;
+  return json;
+}
+
 Json toJson(const GridSummary& grid) {
   return {{"name", grid.name},
           {"type", grid.type},
@@ -135,8 +151,8 @@ void print(const std::string& title, const MeshSummary& mesh) {
             << "    surface           " << surfaceText(mesh) << '\n'
             << "    corners per face  " << histogramText(mesh.faceSizes) << '\n'
             << "    valence           " << histogramText(mesh.valences) << '\n'
-            << "    box               (" << mesh.box.low.transpose() << ") to ("
-            << mesh.box.high.transpose() << ")\n";
+            << "    box               " << exactPoint(mesh.box.low) << " to "
+            << exactPoint(mesh.box.high) << '\n';
   if (!mesh.closed)
     std::cout << "    boundary          " << boundaryText(mesh.boundaryLoops) << '\n';
   for (const auto& [kind, count] : countByKind(mesh.defects))
@@ -151,28 +167,39 @@ Json describe(const SceneObject& object, const ObjectPreparation& preparation, b
   RepairOptions options;
   options.weldTolerance = preparation.weldTolerance;
   options.faces = preparation.faces;
+  const ComponentLimit& limit = preparation.dropComponents;
+  options.noteUnused = limit.dropsNothing();
+  DebrisReport debris;
   SoundReport report;
-  const MeshSummary prepared = summarize(soundMesh(object.mesh, options, report));
+  const PolygonMesh kept =
+      limit.dropsNothing() ? object.mesh : withoutDebris(object.mesh, limit, options, debris);
+  const MeshSummary prepared = summarize(soundMesh(kept, options, report));
+  const GapReport gaps = prepared.closed ? GapReport() : measureGaps(kept, options);
   if (json) {
     Json all = {{"name", object.name}};
     all["reading"] = lossText(object.reading);
     all.update(toJson(input));
+    all["dropped"] = {{"components", debris.dropped}, {"faces", debris.droppedFaces}};
     all["repair"] = toJson(report);
     all["split"] = toJson(report.repair.faces);
     all["prepared"] = toJson(prepared);
+    all["gaps"] = toJson(gaps);
     return all;
   }
   print("mesh " + object.name, input);
   if (const std::string lost = lossText(object.reading); !lost.empty())
     std::cout << "    reading           " << lost << '\n';
+  const std::string dropped = summary(debris);
+  if (!dropped.empty()) std::cout << "    debris            " << dropped << '\n';
   const std::string done = summary(report);
   const std::string split = summary(report.repair.faces);
   std::cout << "    repair            " << (done.empty() ? "none needed" : done) << '\n';
   if (!split.empty()) std::cout << "    faces             " << split << '\n';
   if (prepared.faces == 0)
     std::cout << "  after repair: nothing is left\n";
-  else if (!done.empty() || !split.empty())
+  else if (!done.empty() || !split.empty() || !dropped.empty())
     print(split.empty() ? "after repair" : "after repair and splitting", prepared);
+  if (gaps.count > 0) std::cout << "    gaps              " << summary(gaps) << '\n';
   return {};
 }
 
@@ -204,6 +231,7 @@ Json describe(const std::string& file, const InfoArguments& options) {
   PreparationOptions preparation;
   preparation.weldTolerance = options.weldTolerance;
   preparation.smoothing.faces = parseFaces(options.faces);
+  preparation.dropComponents = options.dropComponents;
   const std::vector<ObjectPreparation> prepared = preparationsOf(scene, preparation);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     all["meshes"].push_back(describe(scene.objects[i], prepared[i], options.json));
@@ -227,6 +255,7 @@ Action addInfo(CLI::App& app) {
   addScaleOption(command, options->scale);
   addFacesOption(command, options->faces);
   addWeldOption(command, options->weldTolerance);
+  addDropOption(command, options->dropComponents);
   return [options] { return runInfo(*options); };
 }
 

@@ -208,7 +208,8 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .add("--edge", arguments.edge,
            "How the grid density ends at the surface: with one value at all its voxels (hard), or "
            "with the part of each voxel that is inside, or without --fill solid within half a "
-           "voxel of the surface (soft) (default: the scene's, or soft if --target is blender, else hard)")
+           "voxel of the surface (soft) (default: the scene's, or soft if --target is blender, "
+           "else hard)")
       .type("hard|soft")
       .group("Output");
   command
@@ -224,6 +225,15 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
            "(surface); or its distances there have no sign (unsigned) (default: the scene's, or "
            "surface)")
       .type("error|surface|unsigned")
+      .group("Output");
+  command
+      .add("--close", arguments.close,
+           "Close openings of the voxel surface that are narrower than N voxels before inside and "
+           "outside are told apart, in --fill solid and the grid surface, if they lead to a space "
+           "at least N voxels wide. Closed meshes stay as they are, and the voxels of the surface, "
+           "too (default: the scene's, or 0: none)")
+      .range(0, kWidestClosing)
+      .type("N")
       .group("Output");
   command
       .add(
@@ -277,6 +287,7 @@ VolumeOptions parseVolume(const VolumeArguments& arguments) {
   volume.up = parseNamed("--up", kUpAxisNames, arguments.up);
   volume.half = arguments.half;
   volume.gain = arguments.gain;
+  volume.close = arguments.close;
   volume.band = arguments.band;
   volume.tolerance = arguments.tolerance;
   return volume;
@@ -285,8 +296,9 @@ VolumeOptions parseVolume(const VolumeArguments& arguments) {
 void addWeldOption(const Command& command, std::optional<double>& tolerance) {
   command
       .add("--weld", tolerance,
-           "Join vertices up to this far apart, in world units (default: the scene's, or 0: those "
-           "at exactly the same place)")
+           "Join vertices up to this far apart, in world units, and put vertices onto edges of "
+           "other "
+           "faces as near as that (default: the scene's, or 0: only what coincides)")
       .type("TOL")
       .group("Repair");
 }
@@ -299,6 +311,25 @@ void addScaleOption(const Command& command, std::optional<double>& scale) {
           "are those after it (default: the scene's, or 1)")
       .type("S")
       .group("Resolution");
+}
+
+void addDropOption(const Command& command, std::optional<ComponentLimit>& limit) {
+  command
+      .add(
+          "--drop-components",
+          [&limit](const std::string& text) {
+            limit = componentLimitIn(text);
+            if (!limit)
+              throw UsageError(
+                  "--drop-components must be below=N (faces), size=X (world units) "
+                  "or both with a comma, not '" +
+                  text + "'");
+          },
+          "Leave out debris: components of fewer than N faces, or with a box whose diagonal is "
+          "shorter than X world units; --dim counts along what remains (default: the scene's, or "
+          "none)")
+      .type("below=N|size=X")
+      .group("Repair");
 }
 
 void addStrictOption(const Command& command, std::optional<bool>& strict) {
@@ -345,6 +376,7 @@ ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOp
   parsed.voxelize = parseNamed("--voxelize", kVoxelizeNames, arguments.voxelization.voxelize);
   parsed.separation = parseSeparation(arguments.voxelization);
   parsed.weldTolerance = arguments.weldTolerance;
+  parsed.dropComponents = arguments.dropComponents;
   parsed.strict = arguments.strict;
   parsed.surface = parseSubmeshes(arguments.submeshes);
   if (!arguments.texture.empty()) parsed.texture = parseTexture(arguments.texture);

@@ -60,7 +60,8 @@ void addVoxelizationOptions(const Command& command, VoxelizationArguments& argum
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
 
-/// --fill, --edge, --gain, --open-mesh, --band, --tolerance, --half, --compression, --target and
+/// --fill, --edge, --gain, --open-mesh, --close, --band, --tolerance, --half, --compression,
+/// --target and
 /// --up, as typed.
 struct VolumeArguments {
   std::string fill;
@@ -70,6 +71,7 @@ struct VolumeArguments {
   std::string target;
   std::string up;
   std::optional<double> gain;
+  std::optional<int> close;
   std::optional<BandWidths> band;
   std::optional<double> tolerance;
   std::optional<bool> half;
@@ -86,6 +88,9 @@ void addWeldOption(const Command& command, std::optional<double>& tolerance);
 
 /// --scale.
 void addScaleOption(const Command& command, std::optional<double>& scale);
+
+/// --drop-components.
+void addDropOption(const Command& command, std::optional<ComponentLimit>& limit);
 
 /// --strict; --strict=false overrides a scene.
 void addStrictOption(const Command& command, std::optional<bool>& strict);
@@ -106,6 +111,7 @@ struct ConversionArguments {
   SmoothingArguments smoothing;
   VoxelizationArguments voxelization;
   std::optional<double> weldTolerance;
+  std::optional<ComponentLimit> dropComponents;
   std::optional<bool> strict;
   SubmeshArguments submeshes;
   std::string texture;

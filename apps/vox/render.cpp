@@ -238,6 +238,7 @@ void addMeshOptions(const Command& command, RenderArguments& options) {
   addSmoothingOptions(command, options.conversion.smoothing);
   addVoxelizationOptions(command, options.conversion.voxelization);
   addWeldOption(command, options.conversion.weldTolerance);
+  addDropOption(command, options.conversion.dropComponents);
   addStrictOption(command, options.conversion.strict);
   addSubmeshOptions(command, options.conversion.submeshes);
   command

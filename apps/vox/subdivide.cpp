@@ -24,6 +24,7 @@ struct SubdivideArguments {
   SmoothingArguments smoothing;
   std::optional<double> scale;
   std::optional<double> weldTolerance;
+  std::optional<ComponentLimit> dropComponents;
   std::optional<bool> strict;
   CommonOptions common;
 };
@@ -69,7 +70,7 @@ void write(const SubdivideArguments& options, const PolygonMesh& mesh, Progress&
 int runSubdivide(const SubdivideArguments& options) {
   formatOf(options.output);  // refuses others
   const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
-                                          options.strict};
+                                          options.dropComponents, options.strict};
   ProgressBar bar(!options.common.quiet);
   const Scene scene = readScene(options.input, options.scale);
   requireOutput(options.output, options.common, scene);
@@ -117,6 +118,7 @@ Action addSubdivide(CLI::App& app) {
   addSmoothingOptions(command, options->smoothing);
   addScaleOption(command, options->scale);
   addWeldOption(command, options->weldTolerance);
+  addDropOption(command, options->dropComponents);
   addStrictOption(command, options->strict);
   addCommonOptions(command, options->common);
   return [options] { return runSubdivide(*options); };

@@ -48,6 +48,8 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
   readNamed(text, table, "up", kUpAxisNames, volume.up);
   if (const auto* half = table.get("half")) volume.half = requireBoolean(text, *half, "half");
   if (const auto* gain = table.get("gain")) volume.gain = requireNumber(text, *gain, "gain");
+  if (const auto* close = table.get("close"))
+    volume.close = static_cast<int>(requireInteger(text, *close, "close", 0, kWidestClosing));
   if (const auto* band = table.get("band")) volume.band = readBand(text, *band);
   if (const auto* tolerance = table.get("tolerance"))
     volume.tolerance = requireNumber(text, *tolerance, "tolerance");
@@ -55,10 +57,10 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
 }
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(
-      text, table, "[convert]",
-      {"dim", "voxel_size", "grids", "fill", "edge", "gain", "open_mesh", "band", "tolerance",
-       "half", "compression", "target", "up", "until", "voxelize", "weld", "strict"});
+  requireKnownKeys(text, table, "[convert]",
+                   {"dim", "voxel_size", "grids", "fill", "edge", "gain", "open_mesh", "close",
+                    "band", "tolerance", "half", "compression", "target", "up", "until", "voxelize",
+                    "weld", "drop_components", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -75,6 +77,8 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
     scene.weldTolerance = requireNumber(text, *weld, "weld");
     if (*scene.weldTolerance < 0) text.fail(*weld, "weld must be 0 or more");
   }
+  if (const auto* drop = table.get("drop_components"))
+    scene.dropComponents = requireComponentLimit(text, *drop);
   if (const auto* strict = table.get("strict"))
     scene.strict = requireBoolean(text, *strict, "strict");
 }

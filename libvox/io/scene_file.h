@@ -2,6 +2,7 @@
 
 #include "libvox/io/read_report.h"
 #include "libvox/mesh/polygon_mesh.h"
+#include "libvox/options/component_limit.h"
 #include "libvox/options/grid_kind.h"
 #include "libvox/options/smoothing_options.h"
 #include "libvox/options/stop_rule.h"
@@ -27,6 +28,7 @@ struct SceneObject {
   std::optional<StopRule> until = {};
   std::optional<Voxelize> voxelize = {};
   std::optional<TextureSpec> texture = {};
+  std::optional<ComponentLimit> dropComponents = {};
   Eigen::Affine3d fromWorld = Eigen::Affine3d::Identity();  ///< inverse of both
   ReadReport reading = {};                                  ///< oddities of the mesh file
 };
@@ -36,8 +38,9 @@ struct Scene {
   std::optional<int> dim;           ///< [convert] dim: voxels along the longest side
   std::optional<double> voxelSize;  ///< [convert] voxel_size: world units
   std::optional<std::vector<GridKind>> grids;
-  std::optional<double> weldTolerance;       ///< [convert] weld: world units
-  std::optional<bool> strict;                ///< [convert] strict: no repair
+  std::optional<double> weldTolerance;                ///< [convert] weld: world units
+  std::optional<ComponentLimit> dropComponents = {};  ///< [convert] drop_components
+  std::optional<bool> strict;                         ///< [convert] strict: no repair
   VolumeOptions volume;                      ///< [convert] fill and the other options of volumes
   std::optional<StopRule> until;             ///< [convert] until: default for objects
   std::optional<Voxelize> voxelize;          ///< [convert] voxelize: default for objects

@@ -192,9 +192,10 @@ void scaleObject(SceneObject& object, double scale, const fs::path& file) {
 }
 
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(text, table, "[[object]]",
-                   {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
-                    "interpolate_vertices", "concave_faces", "until", "voxelize", "texture"});
+  requireKnownKeys(
+      text, table, "[[object]]",
+      {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
+       "interpolate_vertices", "concave_faces", "until", "voxelize", "texture", "drop_components"});
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
   if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");
@@ -204,6 +205,8 @@ SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) 
   if (const auto* until = table.get("until")) object.until = requireStopRule(text, *until);
   readNamed(text, table, "voxelize", kVoxelizeNames, object.voxelize);
   if (const auto* texture = table.get("texture")) object.texture = readTexture(text, *texture);
+  if (const auto* drop = table.get("drop_components"))
+    object.dropComponents = requireComponentLimit(text, *drop);
   return object;
 }
 

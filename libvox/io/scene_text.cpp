@@ -129,4 +129,19 @@ StopRule requireStopRule(const SceneText& text, const toml::node& node) {
   return rule;
 }
 
+ComponentLimit requireComponentLimit(const SceneText& text, const toml::node& node) {
+  constexpr std::int64_t kMostFaces = kNone - 1;
+  const toml::table& table = requireTable(text, node, "drop_components");
+  requireKnownKeys(text, table, "drop_components", {"below", "size"});
+  ComponentLimit limit;
+  if (const auto* below = table.get("below"))
+    limit.below = static_cast<Index>(requireInteger(text, *below, "below", 0, kMostFaces));
+  if (const auto* size = table.get("size")) {
+    limit.size = requireNumber(text, *size, "size");
+    if (!(*limit.size >= 0)) text.fail(*size, "size must be 0 or more");
+  }
+  if (!limit.below && !limit.size) text.fail(node, "drop_components needs below or size");
+  return limit;
+}
+
 }  // namespace vox

@@ -5,6 +5,7 @@
 #include "libvox/core/names.h"
 #include "libvox/core/types.h"
 #include "libvox/io/text_scanner.h"
+#include "libvox/options/component_limit.h"
 #include "libvox/options/stop_rule.h"
 
 #include <toml++/toml.h>
@@ -63,6 +64,8 @@ std::int64_t requireInteger(const SceneText& text, const toml::node& node, const
 Vec3d requireVector(const SceneText& text, const toml::node& node, const std::string& name);
 /// "voxel", or a table with one or more of { levels = 3, diameter = 4, angle = 5, flatness = 0.1 }.
 StopRule requireStopRule(const SceneText& text, const toml::node& node);
+/// A table with one or both of { below = 100, size = 0.5 }.
+ComponentLimit requireComponentLimit(const SceneText& text, const toml::node& node);
 
 /// Reads a value of an enumeration, given by its name. Leaves `value` unchanged if the table does
 /// not have the key.

@@ -28,11 +28,13 @@ void forEachField(Options& options, Visit&& visit) {
   visit("interpolated-vertices", options.smoothing.interpolatedVertices);
   visit("faces", options.smoothing.faces, kFaceRuleNames);
   visit("weld", options.weldTolerance);
+  visit("drop-components", options.dropComponents);
   visit("texture", options.texture);
   visit("fill", options.volume.fill, kFillNames);
   visit("edge", options.volume.edge, kEdgeNames);
   visit("gain", options.volume.gain);
   visit("open-mesh", options.volume.openMesh, kOpenMeshNames);
+  visit("close", options.volume.close);
   visit("band", options.volume.band);
   visit("tolerance", options.volume.tolerance);
   visit("half", options.volume.half);
@@ -68,6 +70,9 @@ class Writer {
     if (!band.isSymmetric()) text_ << ',' << band.out;
   }
   void write(const char* key, const TextureSpec& texture) { write(key, textureText(texture)); }
+  void write(const char* key, const ComponentLimit& limit) {
+    write(key, componentLimitText(limit));
+  }
   void write(const char* key, const StopRule& rule) { write(key, stopRuleName(rule)); }
   template <class Enum, std::size_t N>
   void write(const char* key, Enum value, const NameTable<Enum, N>& names) {
@@ -126,6 +131,9 @@ class Reader {
   }
   bool read(std::optional<StopRule>& field) const {
     return value_ && take(stopRuleNamed(*value_), field);
+  }
+  bool read(std::optional<ComponentLimit>& field) const {
+    return value_ && take(componentLimitIn(*value_), field);
   }
   bool read(std::optional<BandWidths>& field) const {
     return value_ && take(bandWidthsIn(*value_), field);

@@ -47,6 +47,7 @@ void requireValid(const VolumeSettings& settings) {
   requireBetween(settings.gain, 1e-30, 1e30, "the gain");
   for (const double width : {settings.band.in, settings.band.out})
     requireBetween(width, 1, 1000, "the band");
+  requireBetween(settings.close, 0, kWidestClosing, "close");
   requireBetween(settings.tolerance, 1e-4, 10, "the tolerance");
 }
 

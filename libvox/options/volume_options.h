@@ -68,6 +68,8 @@ std::optional<BandWidths> bandWidthsIn(std::string_view text);
 
 inline constexpr double kDefaultBand = 3;  ///< voxels
 
+inline constexpr int kWidestClosing = 1000;  ///< voxels
+
 /// Blender's shading shows the stairs of hard densities. Without a target they stay hard: the values
 /// of a grid that programs compare.
 constexpr Edge defaultEdge(const std::optional<Target>& target) {
@@ -80,6 +82,7 @@ struct VolumeOptions {
   std::optional<Edge> edge;                ///< default: defaultEdge(target)
   std::optional<double> gain;              ///< value of `density` at its voxels; see densityValue()
   std::optional<OpenMesh> openMesh;        ///< default: kSurface
+  std::optional<int> close;                ///< voxels; default: 0, nothing is closed
   std::optional<BandWidths> band;          ///< default: kDefaultBand on both sides
   std::optional<double> tolerance;         ///< voxels; has no effect: distances are exact
   std::optional<bool> half;                ///< true: values of 16 bits; default: false, 32 bits
@@ -93,6 +96,7 @@ struct VolumeSettings {
   Fill fill = Fill::kSurface;
   Edge edge = Edge::kHard;
   OpenMesh openMesh = OpenMesh::kSurface;
+  int close = 0;  ///< openings of the voxels that are narrower are closed (volume/close.h)
   BandWidths band = kDefaultBand;
   std::optional<double> tolerance = {};  ///< voxels; has no effect
   bool half = false;

@@ -218,9 +218,10 @@ auto runRequest(const Scene& scene, const RunOptions& run, Work&& work) {
 
 }  // namespace
 
-Box boxOf(const Scene& scene) {
+Box boxOf(const Scene& scene, std::span<const ObjectPreparation> preparations) {
   Box box;
-  for (const SceneObject& object : scene.objects) box.add(usedBox(object.mesh));
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    box.add(keptBox(scene, scene.objects[i], preparations[i]));
   return box;
 }
 

@@ -13,6 +13,7 @@
 #include <iosfwd>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,11 @@ Conversion convert(const Scene& scene, const ConvertOptions& options);
 /// @param request  resolved for this scene
 Conversion convert(const Scene& scene, const Request& request);
 
-/// Box of all objects, world units. The `dim` voxels lie along its longest side.
-Box boxOf(const Scene& scene);
+/// Box of all objects without the components that are dropped, world units. The `dim` voxels lie
+/// along its longest side.
+/// @param preparations  one for each object
+/// @throws MeshError  all components of an object are dropped
+Box boxOf(const Scene& scene, std::span<const ObjectPreparation> preparations);
 
 /// What convert would make, and its warnings, without making it.
 /// @throws as convert, except that grids which do not fit are no error: see Estimate::refusal

@@ -19,8 +19,10 @@
 
 #include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/Composite.h>
+#include <openvdb/tools/SignedFloodFill.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -74,13 +76,14 @@ class LevelSetMaker {
  public:
   LevelSetMaker(std::span<const PreparedSurface> surfaces, const VolumeSettings& settings,
                 double voxelSize, const MarkVoxels& markVoxels, MemoryBudget& budget,
-                Progress& progress)
+                Progress& progress, std::vector<std::string>& warnings)
       : surfaces_(surfaces),
         settings_(settings),
         voxelSize_(voxelSize),
         markVoxels_(markVoxels),
         budget_(budget),
-        progress_(progress) {
+        progress_(progress),
+        warnings_(warnings) {
     for (const PreparedSurface& surface : surfaces)
       components_.push_back(componentsOf(surface.base));
     for (std::size_t s = 0; s < surfaces.size(); ++s)
@@ -94,6 +97,7 @@ class LevelSetMaker {
     if (!open_.empty()) findEnclosing();
     openvdb::FloatTree::Ptr tree;
     if (!closed_.empty()) tree = bandOfSolids();
+    if (tree && solid_.closure.voxels) addLids(*tree);
     if (!open_.empty()) {
       const openvdb::FloatTree::Ptr sheets = bandOfSheets();
       if (tree)
@@ -143,8 +147,62 @@ class LevelSetMaker {
     if (inside_.solid != nullptr) return;
     inside_.surface = &markVoxels_();
     budget_.require(bytesOfFilling(*inside_.surface), "the inside", kScatteredAdvice);
-    solid_ = solidOf(*inside_.surface, surfaces_, budget_, progress_);
-    inside_.solid = solid_.get();
+    solid_ = solidOf(*inside_.surface, surfaces_, settings_, budget_, progress_, warnings_);
+    inside_.solid = solid_.voxels.get();
+  }
+
+  using FloatValues = openvdb::tree::ValueAccessor<openvdb::FloatTree>;
+
+  /// Where an opening was closed, the outer sides of the closing voxels are surface, too, and so is
+  /// what is left between them and the boundary: sides of voxels that a sign jumps across.
+  void addLids(openvdb::FloatTree& tree) const {
+    FloatValues values(tree);
+    for (const auto& [inner, outer] : solid_.closure.sides) addLid(inner, outer, values);
+    constexpr int kNear = 2;
+    const double mostApart = 1.02 * voxelSize_;
+    for (auto voxel = solid_.closure.voxels->cbeginValueOn(); voxel; ++voxel) {
+      const openvdb::CoordBBox around(voxel.getCoord().offsetBy(-kNear),
+                                      voxel.getCoord().offsetBy(kNear));
+      for (auto at = around.begin(); at != around.end(); ++at)
+        for (int axis = 0; axis < 3; ++axis) {
+          openvdb::Coord next = *at;
+          ++next[axis];
+          const double a = values.getValue(*at);
+          const double b = values.getValue(next);
+          if ((a < 0) != (b < 0) && std::abs(a - b) > mostApart) addLid(*at, next, values);
+        }
+    }
+    openvdb::tools::signedFloodFillWithValues(tree, backgroundOf(settings_.band.out, voxelSize_),
+                                              -backgroundOf(settings_.band.in, voxelSize_));
+  }
+
+  /// Gives the voxels around the square between two neighbours their distances from it.
+  void addLid(const openvdb::Coord& inner, const openvdb::Coord& outer, FloatValues& values) const {
+    const BandWidths& band = settings_.band;
+    const int reach =
+        static_cast<int>(std::ceil(std::min(std::max(band.in, band.out), kMostExact)));
+    const openvdb::CoordBBox around(inner.offsetBy(-reach), inner.offsetBy(reach));
+    for (auto at = around.begin(); at != around.end(); ++at) {
+      const double distance = distanceToSide(*at, inner, outer) * voxelSize_;
+      const float value = values.getValue(*at);
+      const bool isActive = values.isValueOn(*at);
+      const bool isInside = isActive ? value < 0 : inside_.solid->isValueOn(*at);
+      const double width = (isInside ? band.in : band.out) * voxelSize_;
+      if (distance >= width || (isActive && distance >= std::abs(double{value}))) continue;
+      values.setValue(*at, static_cast<float>(isInside ? -distance : distance));
+    }
+  }
+
+  /// Distance, in voxels, of a voxel from the square between two neighbours.
+  static double distanceToSide(const openvdb::Coord& voxel, const openvdb::Coord& a,
+                               const openvdb::Coord& b) {
+    Vec3d away;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool across = a[axis] != b[axis];
+      const double off = std::abs(voxel[axis] - (a[axis] + b[axis]) / 2.0);
+      away[axis] = across ? off : std::max(0.0, off - 0.5);
+    }
+    return away.norm();
   }
 
   openvdb::FloatTree::Ptr bandOfSolids() {
@@ -207,14 +265,15 @@ class LevelSetMaker {
   /// @return voxels that are inside, or that a surface crosses
   openvdb::MaskTree::Ptr exposeParts(const Band& band, const FootBins& bins,
                                      const BandOptions& options) const {
-    if (solid_ != nullptr) {
+    if (solid_.voxels) {
       constexpr double kNotCrossed = 1;  // voxels, from the surface
-      expose(band, bins, *solid_, kNotCrossed, options, progress_);
-      return solid_;
+      expose(band, bins, *solid_.voxels, kNotCrossed, options, progress_);
+      return solid_.voxels;
     }
     const openvdb::MaskTree::Ptr walls = wallsOf(*band.tree, voxelSize_);
     budget_.require(bytesOfFilling(*walls), "the inside", kScatteredAdvice);
-    const openvdb::MaskTree::Ptr solid = solidOf(*walls, surfaces_, budget_, progress_);
+    const openvdb::MaskTree::Ptr solid =
+        solidOf(*walls, surfaces_, settings_, budget_, progress_, warnings_).voxels;
     expose(band, bins, *solid, kLeastOfFree, options, progress_);
     return solid;
   }
@@ -273,7 +332,8 @@ class LevelSetMaker {
   Progress& progress_;
   std::vector<std::vector<MeshComponent>> components_;
   std::vector<Part> closed_, open_;
-  openvdb::MaskTree::Ptr solid_;
+  std::vector<std::string>& warnings_;
+  Solid solid_;
   Inside inside_;
 };
 
@@ -294,7 +354,7 @@ openvdb::FloatGrid::Ptr surfaceGrid(std::span<const PreparedSurface> surfaces,
                                     const MarkVoxels& markVoxels, MemoryBudget& budget,
                                     Progress& progress, std::vector<std::string>& warnings) {
   const double voxelSize = transform.voxelSize()[0];
-  LevelSetMaker maker(surfaces, settings, voxelSize, markVoxels, budget, progress);
+  LevelSetMaker maker(surfaces, settings, voxelSize, markVoxels, budget, progress, warnings);
   auto grid = openvdb::FloatGrid::create(maker.make());
   grid->setTransform(transform.copy());
   const bool isUnsigned = maker.hasSheets() && settings.openMesh == OpenMesh::kUnsigned;

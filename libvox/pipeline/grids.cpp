@@ -31,14 +31,15 @@ std::uint64_t bytesOfGrid(const openvdb::MaskTree& mask) {
 }
 
 openvdb::FloatGrid::Ptr hardDensityGrid(const openvdb::MaskTree& mask,
-                                        std::span<const PreparedSurface> surfaces, Fill fill,
-                                        float value, MemoryBudget& budget,
-                                        const Progress& progress) {
+                                        std::span<const PreparedSurface> surfaces,
+                                        const VolumeSettings& volume, float value,
+                                        MemoryBudget& budget, Progress& progress,
+                                        std::vector<std::string>& warnings) {
   openvdb::MaskTree::ConstPtr solid;
   const openvdb::MaskTree* tree = &mask;
-  if (fill == Fill::kSolid) {
+  if (volume.fill == Fill::kSolid) {
     budget.require(bytesOfFilling(*tree), "the inside", kScatteredAdvice);
-    solid = solidOf(*tree, surfaces, budget, progress);
+    solid = solidOf(*tree, surfaces, volume, budget, progress, warnings).voxels;
     tree = solid.get();
   }
   budget.take(bytesOfFloats(*tree), "the density grid", kScatteredAdvice);
@@ -48,13 +49,13 @@ openvdb::FloatGrid::Ptr hardDensityGrid(const openvdb::MaskTree& mask,
 openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
                                    std::span<const PreparedSurface> surfaces,
                                    const VolumeSettings& volume, MemoryBudget& budget,
-                                   Progress& progress) {
+                                   Progress& progress, std::vector<std::string>& warnings) {
   const auto value =
       static_cast<float>(densityValue(volume.gain, volume.target, mask.voxelSize()[0]));
   const auto density =
       volume.edge == Edge::kSoft
-          ? softDensityGrid(mask.tree(), surfaces, volume.fill, value, budget, progress)
-          : hardDensityGrid(mask.tree(), surfaces, volume.fill, value, budget, progress);
+          ? softDensityGrid(mask.tree(), surfaces, volume, value, budget, progress, warnings)
+          : hardDensityGrid(mask.tree(), surfaces, volume, value, budget, progress, warnings);
   density->setTransform(mask.transform().copy());
   density->insertMeta(kGainMetadata, openvdb::FloatMetadata(value));
   return density;
@@ -84,7 +85,7 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
     case GridKind::kMask:
       break;
     case GridKind::kDensity:
-      return makeDensity(*mask, surfaces, volume, budget, progress);
+      return makeDensity(*mask, surfaces, volume, budget, progress, warnings);
     case GridKind::kSurface:
       return surfaceGrid(surfaces, volume, mask->transform(), markVoxels, budget, progress,
                          warnings);

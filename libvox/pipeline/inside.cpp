@@ -11,6 +11,8 @@
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/refined_polygons.h"
+#include "libvox/pipeline/sheets.h"
+#include "libvox/prepare/gaps.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/volume/fill.h"
 #include "libvox/volume/winding.h"
@@ -43,8 +45,8 @@ std::string describeOpen(const PreparedSurface& surface,
   text << surface.name << ": " << count << " of its " << components.size() << " component"
        << (components.size() == 1 ? "" : "s") << (count == 1 ? " has" : " have")
        << " no inside; the first, of " << first.faces.size() << " face"
-       << (first.faces.size() == 1 ? "" : "s") << ", is " << (open ? "open" : "one-sided")
-       << " at (" << at.x() << ", " << at.y() << ", " << at.z() << ")";
+       << (first.faces.size() == 1 ? "" : "s") << ", is " << (open ? "open" : "one-sided") << " at "
+       << exactPoint(at);
   return text.str();
 }
 
@@ -90,6 +92,46 @@ PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>&
   return mesh;
 }
 
+void refuseOrWarn(const std::string& noInside, OpenMesh openMesh,
+                  std::vector<std::string>& warnings) {
+  if (openMesh == OpenMesh::kError)
+    throw MeshError(noInside + "; close it, or use --open-mesh " +
+                    nameIn(kOpenMeshNames, OpenMesh::kSurface) + " or " +
+                    nameIn(kOpenMeshNames, OpenMesh::kUnsigned));
+  warnings.push_back(noInside);
+}
+
+/// Grids share their inside, but each finds it for itself: the same line may come again.
+void addOnce(const std::string& line, std::vector<std::string>& lines) {
+  if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+}
+
+std::string describe(const Closure& closure, int width) {
+  if (closure.voxelCount == 0)
+    return "closed nothing: the voxel surface has no opening narrower than " +
+           std::to_string(width) + " voxels that leads to a space as wide as that";
+  return "closed " + std::to_string(closure.openings) + " opening" +
+         (closure.openings == 1 ? "" : "s") + " of the voxel surface with " +
+         std::to_string(closure.voxelCount) + " voxel" + (closure.voxelCount == 1 ? "" : "s");
+}
+
+/// Refuses objects of which components have no inside even though openings were closed.
+void requireClosed(std::span<const PreparedSurface> surfaces,
+                   const std::vector<std::vector<MeshComponent>>& components,
+                   const VolumeSettings& settings, const Inside& inside, Progress& progress,
+                   std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (surfaces[i].noInside.empty()) continue;
+    const auto have = haveInside(surfaces[i], components[i], inside, progress);
+    if (std::find(have.begin(), have.end(), false) == have.end()) continue;
+    std::vector<std::string> line;
+    refuseOrWarn(surfaces[i].noInside + "; --close " + std::to_string(settings.close) +
+                     " does not close all of it",
+                 settings.openMesh, line);
+    addOnce(line.front(), warnings);
+  }
+}
+
 bool hasCavity(const std::vector<MeshComponent>& components) {
   return std::any_of(components.begin(), components.end(),
                      [](const MeshComponent& c) { return c.side == MeshComponent::Side::kIn; });
@@ -106,20 +148,19 @@ PolygonMesh trianglesOfLevel(const PreparedSurface& surface, const std::vector<I
           .mesh);
 }
 
-void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
-                   const GridTransform& transform, std::vector<std::string>& warnings) {
-  const std::string open = describeOpen(surface, componentsOf(surface.base), transform);
-  if (open.empty()) return;
-  if (openMesh == OpenMesh::kError)
-    throw MeshError(open + "; close it, or use --open-mesh " +
-                    nameIn(kOpenMeshNames, OpenMesh::kSurface) + " or " +
-                    nameIn(kOpenMeshNames, OpenMesh::kUnsigned));
-  warnings.push_back(open);
+void requireInside(PreparedSurface& surface, const VolumeSettings& settings,
+                   const GridTransform& transform, const std::function<std::string()>& describeGaps,
+                   std::vector<std::string>& warnings) {
+  surface.noInside = describeOpen(surface, componentsOf(surface.base), transform);
+  if (surface.noInside.empty()) return;
+  const std::string gaps = describeGaps();
+  if (!gaps.empty()) surface.noInside += "; " + gaps;
+  if (settings.close == 0) refuseOrWarn(surface.noInside, settings.openMesh, warnings);
 }
 
-openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& active,
-                               std::span<const PreparedSurface> surfaces,
-                               const MemoryBudget& budget, const Progress& progress) {
+Solid solidOf(const openvdb::MaskTree& active, std::span<const PreparedSurface> surfaces,
+              const VolumeSettings& settings, const MemoryBudget& budget, Progress& progress,
+              std::vector<std::string>& warnings) {
   std::vector<std::vector<MeshComponent>> components;
   for (const PreparedSurface& surface : surfaces) components.push_back(componentsOf(surface.base));
   AreCavities areCavities;
@@ -141,7 +182,19 @@ openvdb::MaskTree::Ptr solidOf(const openvdb::MaskTree& active,
   };
   if (std::any_of(components.begin(), components.end(), hasCavity)) areCavities = areInCavities;
   progress.check();
-  return filled(active, areCavities);
+  const bool closes = settings.close > 0 &&
+                      std::any_of(surfaces.begin(), surfaces.end(),
+                                  [](const PreparedSurface& s) { return !s.noInside.empty(); });
+  if (!closes) return {filled(active, areCavities)};
+  budget.require(bytesOfClosing(active, settings.close), "closing openings",
+                 "use a smaller --close or larger voxels, or raise --max-memory");
+  Solid solid{nullptr, closureOf(active, settings.close)};
+  addOnce(describe(solid.closure, settings.close), warnings);
+  openvdb::MaskTree tight(active);
+  if (solid.closure.voxels) tight.topologyUnion(*solid.closure.voxels);
+  solid.voxels = filled(tight, areCavities);
+  requireClosed(surfaces, components, settings, {&active, solid.voxels.get()}, progress, warnings);
+  return solid;
 }
 
 }  // namespace vox

@@ -5,7 +5,9 @@
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/options/volume_options.h"
 #include "libvox/pipeline/prepared_surface.h"
+#include "libvox/volume/close.h"
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,21 +18,31 @@ namespace vox {
 class MemoryBudget;
 class Progress;
 
-/// Looks for components of an object that have no inside. If there are any: kError refuses the
-/// object, other values of `openMesh` add a warning that says where the first of them is open.
+/// Sets `noInside` of an object, if it has components without an inside. Unless openings are to be
+/// closed, kError then refuses the object, and other values of `openMesh` add a warning.
+/// @param describeGaps  called if such a component is open; what it says is added to `noInside`
 /// @throws MeshError
-void requireInside(const PreparedSurface& surface, OpenMesh openMesh,
-                   const GridTransform& transform, std::vector<std::string>& warnings);
+void requireInside(PreparedSurface& surface, const VolumeSettings& settings,
+                   const GridTransform& transform, const std::function<std::string()>& describeGaps,
+                   std::vector<std::string>& warnings);
+
+/// The inside of all objects.
+struct Solid {
+  std::shared_ptr<openvdb::MaskTree> voxels;  ///< those of the surfaces, and what they enclose
+  Closure closure = {};                       ///< part of `voxels`
+};
 
 /// The active voxels of all objects and the voxels that they enclose together (fill.h), except
-/// cavities. A cavity is an enclosed space inside a component that faces inward, and inside no
-/// other component. Polygons that follow the surfaces within a quarter of a voxel decide which
-/// spaces are cavities.
+/// cavities. If a component has no inside, openings are closed first (close.h); a line of
+/// `warnings` says what was closed, and those that stay open are refused or get a warning. A cavity
+/// is an enclosed space inside a component that faces inward, and inside no other component.
+/// Polygons that follow the surfaces within a quarter of a voxel decide which spaces are cavities.
+/// @throws MeshError   as requireInside
 /// @throws LimitError
 /// @throws Cancelled
-std::shared_ptr<openvdb::MaskTree> solidOf(const openvdb::MaskTree& active,
-                                           std::span<const PreparedSurface> surfaces,
-                                           const MemoryBudget& budget, const Progress& progress);
+Solid solidOf(const openvdb::MaskTree& active, std::span<const PreparedSurface> surfaces,
+              const VolumeSettings& settings, const MemoryBudget& budget, Progress& progress,
+              std::vector<std::string>& warnings);
 
 /// The polygons at which a surface stops (levelOf), cut into triangles.
 /// @param faces  ascending, whole components

@@ -106,7 +106,9 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
   if (request.volume.tolerance)
     report.warnings.push_back("tolerance has no effect any more: distances are exact");
   warnOfColors(scene, request, report);
-  const Box box = boxOf(scene);
+  std::vector<ObjectPreparation> preparations;
+  for (const ObjectRequest& object : request.objects) preparations.push_back(object.preparation);
+  const Box box = boxOf(scene, preparations);
   GridTransform& transform = prepared.transform;
   transform = transformFor(request.resolution, box);
   transform.turn = request.turn;
@@ -121,8 +123,10 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
           prepareObject(scene, request, i, transform, budget, progress, report));
   }
   if (needsInside(request))
-    for (const PreparedSurface& surface : prepared.surfaces)
-      requireInside(surface, request.volume.openMesh, transform, report.warnings);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+      requireInside(
+          prepared.surfaces[i], request.volume, transform,
+          [&] { return gapsOf(scene.objects[i], preparations[i]); }, report.warnings);
   prepared.estimate = estimateGrids(prepared.surfaces, request.grids, request.volume);
   prepared.estimate.voxelSize = report.voxelSize;
   prepared.estimate.refusal = refusalOf(prepared.estimate, box.longestSide(), budget);

@@ -29,6 +29,9 @@ struct PreparedSurface {
   std::optional<PlacedTexture> texture = {};
   /// The voxels of this object alone; null if no grid needs the objects separately.
   std::shared_ptr<openvdb::MaskTree> voxels = {};
+  /// Which components have no inside, and why: for a message. Empty if all have one, or nothing
+  /// asks for it.
+  std::string noInside = {};
 };
 
 }  // namespace vox

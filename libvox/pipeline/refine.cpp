@@ -9,6 +9,8 @@
 #include "libvox/core/progress.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/pipeline/work.h"
+#include "libvox/prepare/debris.h"
+#include "libvox/prepare/gaps.h"
 #include "libvox/prepare/sound.h"
 #include "libvox/subdivide/strip.h"
 
@@ -51,19 +53,42 @@ void noteReading(const SceneObject& object, bool strict, std::vector<std::string
   if (!lost.empty()) warnings.push_back(object.name + ": reading its file " + lost);
 }
 
-/// The mesh of an object made sound; a warning tells what was done to it.
-PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
-                        VertexOrigin& origin, std::vector<std::string>& warnings) {
+RepairOptions repairOptionsOf(const ObjectPreparation& preparation) {
   RepairOptions repair;
   repair.weldTolerance = preparation.weldTolerance;
   repair.faces = preparation.faces;
+  repair.noteUnused = preparation.dropComponents.dropsNothing();  // dropped faces leave vertices
+  return repair;
+}
+
+/// The mesh of an object without debris.
+/// @throws MeshError  nothing is left
+PolygonMesh keptMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
+                       DebrisReport& report) {
+  if (preparation.dropComponents.dropsNothing()) return object.mesh;
+  PolygonMesh kept =
+      withoutDebris(object.mesh, preparation.dropComponents, repairOptionsOf(preparation), report);
+  if (kept.faceCount() == 0)
+    throw MeshError("all " + std::to_string(report.components) +
+                    " components would be dropped; the largest has " +
+                    std::to_string(report.mostFaces) + " faces and a box whose diagonal is " +
+                    exactNumber(report.largestDiagonal));
+  return kept;
+}
+
+/// The mesh of an object made sound; a warning tells what was done to it.
+PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
+                        VertexOrigin& origin, std::vector<std::string>& warnings) {
+  DebrisReport debris;
   SoundReport report;
-  PolygonMesh mesh = soundMesh(object.mesh, repair, report);
+  PolygonMesh mesh =
+      soundMesh(keptMeshOf(object, preparation, debris), repairOptionsOf(preparation), report);
   std::string done = summary(report);
   if (preparation.strict && !done.empty())
     throw MeshError("needs repair, which strict forbids: " + firstAction(report) +
                     "; in all: " + done);
   if (mesh.faceCount() == 0) throw MeshError("nothing is left after repair: " + done);
+  if (debris.dropped > 0) warnings.push_back(object.name + ": " + summary(debris));
   const std::string split = summary(report.repair.faces);
   if (!split.empty()) done += (done.empty() ? "" : ", ") + split;
   if (!done.empty()) warnings.push_back(object.name + ": " + done);
@@ -234,6 +259,19 @@ SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel l
 void requireValidScene(const Scene& scene) {
   for (const SceneObject& object : scene.objects)
     namingObject(scene, object, [&] { requireValidArrays(object.mesh); });
+}
+
+Box keptBox(const Scene& scene, const SceneObject& object, const ObjectPreparation& preparation) {
+  return namingObject(scene, object, [&] {
+    DebrisReport unused;
+    return usedBox(keptMeshOf(object, preparation, unused));
+  });
+}
+
+std::string gapsOf(const SceneObject& object, const ObjectPreparation& preparation) {
+  DebrisReport unused;
+  return summary(
+      measureGaps(keptMeshOf(object, preparation, unused), repairOptionsOf(preparation)));
 }
 
 PreparedObject prepare(const Scene& scene, const SceneObject& object,

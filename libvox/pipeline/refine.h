@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/grid/transform.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/options/preparation_options.h"
@@ -41,8 +42,15 @@ struct PreparedObject {
   std::vector<std::string> warnings;
 };
 
-/// Prepares an object in world space: repair, orientation, interpolation. Credits the current stage
-/// of `progress`.
+/// Box of the components of an object that are not dropped, in world units.
+/// @throws MeshError  all are dropped; the message names file and object
+Box keptBox(const Scene& scene, const SceneObject& object, const ObjectPreparation& preparation);
+
+/// What is said of the gaps of an object (gaps.h), in world units.
+std::string gapsOf(const SceneObject& object, const ObjectPreparation& preparation);
+
+/// Prepares an object in world space: dropping of debris, repair, orientation, interpolation.
+/// Credits the current stage of `progress`.
 /// @throws UsageError  the weld tolerance is negative or not finite
 /// @throws MeshError   something had to be repaired or turned round though `strict` forbids it,
 ///   nothing is left after repair, or a vertex cannot be interpolated; the message names file,

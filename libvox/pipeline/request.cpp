@@ -33,6 +33,8 @@ ObjectPreparation preparationOf(const Scene& scene, const SceneObject& object,
   if (chosen.interpolatedVertices) result.interpolatedVertices = *chosen.interpolatedVertices;
   result.faces = firstSet({first.faces, second.faces}, result.faces);
   result.weldTolerance = firstSet({options.weldTolerance, scene.weldTolerance});
+  result.dropComponents =
+      firstSet({options.dropComponents, object.dropComponents, scene.dropComponents});
   result.strict = firstSet({options.strict, scene.strict});
   return result;
 }
@@ -44,6 +46,7 @@ VolumeSettings volumeOf(const VolumeOptions& first, const VolumeOptions& second)
   };
   choose(&VolumeOptions::fill, all.fill);
   choose(&VolumeOptions::openMesh, all.openMesh);
+  choose(&VolumeOptions::close, all.close);
   choose(&VolumeOptions::band, all.band);
   choose(&VolumeOptions::half, all.half);
   choose(&VolumeOptions::target, all.target);

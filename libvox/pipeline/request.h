@@ -33,8 +33,9 @@ struct ObjectPreparation {
   Interpolate interpolate = Interpolate::kNothing;
   std::vector<Index> interpolatedVertices = {};  ///< interior ones, besides `interpolate`
   FaceRule faces = FaceRule::kSplit;
-  double weldTolerance = 0;  ///< world units
-  bool strict = false;       ///< a mesh that needs repair is refused
+  double weldTolerance = 0;            ///< world units
+  ComponentLimit dropComponents = {};  ///< components below it are left out
+  bool strict = false;                 ///< a mesh that needs repair is refused
 
   /// True if the surface is to pass through some vertex.
   bool interpolates() const {

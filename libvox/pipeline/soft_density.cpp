@@ -166,9 +166,10 @@ class SoftDensity {
     return tree_;
   }
 
-  openvdb::FloatTree::Ptr solid() {
+  openvdb::FloatTree::Ptr solid(const VolumeSettings& settings,
+                                std::vector<std::string>& warnings) {
     budget_.require(bytesOfFilling(mask_), "the inside", kScatteredAdvice);
-    solid_ = solidOf(mask_, surfaces_, budget_, progress_);
+    solid_ = solidOf(mask_, surfaces_, settings, budget_, progress_, warnings).voxels;
     BodyGroups groups(surfaces_.size());
     FacesOfSurfaces sheets;
     bool anySheet = false;
@@ -409,10 +410,13 @@ class SoftDensity {
 }  // namespace
 
 openvdb::FloatGrid::Ptr softDensityGrid(const openvdb::MaskTree& mask,
-                                        std::span<const PreparedSurface> surfaces, Fill fill,
-                                        float value, MemoryBudget& budget, Progress& progress) {
+                                        std::span<const PreparedSurface> surfaces,
+                                        const VolumeSettings& settings, float value,
+                                        MemoryBudget& budget, Progress& progress,
+                                        std::vector<std::string>& warnings) {
   SoftDensity density(mask, surfaces, value, budget, progress);
-  auto grid = densityGrid(fill == Fill::kSolid ? density.solid() : density.shells());
+  auto grid = densityGrid(settings.fill == Fill::kSolid ? density.solid(settings, warnings)
+                                                        : density.shells());
   grid->insertMeta(kEdgeMetadata, openvdb::StringMetadata("soft"));
   return grid;
 }

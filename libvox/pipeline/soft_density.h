@@ -18,12 +18,14 @@ class Progress;
 /// with the part 0 are inactive. What is inside is decided as in solidOf (inside.h), but within
 /// half a voxel of the surface by the side of the closest point.
 /// @param mask  active voxels of all surfaces, without tiles
+/// @param warnings  as for solidOf
 /// @throws LimitError
 /// @throws Cancelled
 std::shared_ptr<openvdb::FloatGrid> softDensityGrid(const openvdb::MaskTree& mask,
                                                     std::span<const PreparedSurface> surfaces,
-                                                    Fill fill, float value, MemoryBudget& budget,
-                                                    Progress& progress);
+                                                    const VolumeSettings& settings, float value,
+                                                    MemoryBudget& budget, Progress& progress,
+                                                    std::vector<std::string>& warnings);
 
 /// Name of the metadata, of a soft density and of its file, that tells that it is "soft".
 inline constexpr const char* kEdgeMetadata = "vox_edge";

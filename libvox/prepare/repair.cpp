@@ -11,6 +11,7 @@
 #include "libvox/prepare/face_order.h"
 #include "libvox/prepare/loop_cutter.h"
 #include "libvox/prepare/manifold.h"
+#include "libvox/prepare/stitch.h"
 #include "libvox/prepare/weld.h"
 
 #include <algorithm>
@@ -173,6 +174,35 @@ std::pair<Index, Index> edgeOf(const Draft& draft, const Adjacency& joints, Inde
   return {draft.mesh.faceVertices[c], draft.mesh.faceVertices[nextCorner(draft.mesh, joints, c)]};
 }
 
+void noteStitches(const Draft& draft, const Adjacency& joints, const std::vector<EdgeVertex>& added,
+                  RepairReport& report) {
+  for (const auto& [corner, vertex] : added) {
+    const Index origin = draft.pointOrigin[vertex];
+    note(report, RepairKind::kStitchedVertex, origin, [&, corner = corner] {
+      const auto [v, w] = edgeOf(draft, joints, corner);
+      return "stitched vertex " + str(origin) + " into face " +
+             str(draft.faceOrigin[joints.cornerFace[corner]]) + ", on whose edge (" +
+             str(draft.pointOrigin[v]) + ", " + str(draft.pointOrigin[w]) + ") it lies";
+    });
+  }
+}
+
+/// Stitches T-junctions. Parts of edges may have further vertices within the tolerance.
+/// @param joints  of the draft; those of the result are returned
+Joints stitch(Draft& draft, Joints joints, double tolerance, RepairReport& report) {
+  constexpr int kMostPasses = 4;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const auto added = verticesOnEdges(draft.mesh, joints, tolerance);
+    if (added.empty()) break;
+    noteStitches(draft, joints.adjacency, added, report);
+    draft.mesh = withEdgeVertices(draft.mesh, added);
+    cleanFaces(draft, report);
+    dropDuplicates(draft, report);
+    joints = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
+  }
+  return joints;
+}
+
 void noteCutEdges(const Draft& draft, const Joints& joints, RepairReport& report) {
   for (const Index c : joints.crowdedEdges) {
     const auto [v, w] = edgeOf(draft, joints.adjacency, c);
@@ -210,16 +240,17 @@ void noteCopies(Draft& draft, const std::vector<Index>& copied, const std::vecto
 /// two pairs of sheets meet again around both ends of their edge, the copies of vertices do not
 /// separate the pairs. A second pass then joins no faces at the edge, which leaves at most two
 /// faces at each copy of it.
-Adjacency cutIntoSheets(Draft& draft, RepairReport& report) {
-  for (const auto crowded : {CrowdedEdge::kPairSheets, CrowdedEdge::kSeparate}) {
-    const Joints joints = joinFaces(draft.mesh, crowded);
-    if (crowded == CrowdedEdge::kPairSheets) noteCutEdges(draft, joints, report);
+/// @param joints  of the draft, in pairs of sheets
+Adjacency cutIntoSheets(Draft& draft, Joints joints, RepairReport& report) {
+  noteCutEdges(draft, joints, report);
+  for (int pass = 0; pass < 2; ++pass) {
     const auto atCut = crowdedVertices(draft, joints);
     const auto copied = splitFans(draft.mesh, joints.adjacency);
     noteCopies(draft, copied, atCut, report);
-    if (joints.crowdedEdges.empty()) return joints.adjacency;
+    if (joints.crowdedEdges.empty()) break;
+    joints = joinFaces(draft.mesh, CrowdedEdge::kSeparate);
   }
-  return joinFaces(draft.mesh, CrowdedEdge::kSeparate).adjacency;
+  return std::move(joints.adjacency);
 }
 
 void noteChords(Draft& draft, const ChordResult& chords, RepairReport& report) {
@@ -254,16 +285,20 @@ bool chord(Draft& draft, const Adjacency& joints, RepairReport& report) {
 
 /// Chording can leave concave faces, and splitting can end at vertices of two faces. So both are
 /// done in each round.
-void makeManifold(Draft& draft, FaceRule faces, RepairReport& report) {
-  for (int round = 0; round < kMostRounds; ++round) {
-    dropDuplicates(draft, report);
-    if (faces == FaceRule::kSplit && splitConcaveFaces(draft, report))
-      dropDuplicates(draft, report);
-    const Adjacency joints = cutIntoSheets(draft, report);
-    if (!chord(draft, joints, report)) return;
-  }
+void makeManifold(Draft& draft, const RepairOptions& options, RepairReport& report) {
   dropDuplicates(draft, report);
-  Adjacency joints = cutIntoSheets(draft, report);
+  Joints sheets = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
+  if (options.weld) sheets = stitch(draft, std::move(sheets), options.weldTolerance, report);
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (options.faces == FaceRule::kSplit && splitConcaveFaces(draft, report)) {
+      dropDuplicates(draft, report);
+      sheets = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
+    }
+    if (!chord(draft, cutIntoSheets(draft, std::move(sheets), report), report)) return;
+    dropDuplicates(draft, report);
+    sheets = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
+  }
+  Adjacency joints = cutIntoSheets(draft, std::move(sheets), report);
   openInteriorPairs(draft.mesh, joints);
   const auto copied = splitFans(draft.mesh, joints);
   noteCopies(draft, copied, std::vector<bool>(draft.mesh.pointCount(), false), report);
@@ -310,9 +345,9 @@ PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport&
 
   if (options.weld) weld(draft, options.weldTolerance, report);
   cleanFaces(draft, report);
-  makeManifold(draft, options.faces, report);
+  makeManifold(draft, options, report);
   removeUnused(draft);
-  noteRemoved(draft, report);
+  if (options.noteUnused) noteRemoved(draft, report);
   report.pointOrigin = std::move(draft.pointOrigin);
   report.faceOrigin = std::move(draft.faceOrigin);
   return std::move(draft.mesh);

@@ -12,17 +12,21 @@
 namespace vox {
 
 struct RepairOptions {
-  /// Distance in world units; 0 welds only points with equal coordinates (-0 equals +0).
+  /// Distance in world units; 0 welds only points with equal coordinates (-0 equals +0), and
+  /// stitches vertices that miss an edge by rounding alone (stitch.h).
   double weldTolerance = 0;
-  /// false: points at the same place stay separate. Needed for results of repair, whose copies lie
-  /// at the same place as their originals.
+  /// false: points at the same place stay separate, and nothing is stitched. Needed for results of
+  /// repair, whose copies lie at the same place as their originals.
   bool weld = true;
   FaceRule faces = FaceRule::kSplit;  ///< whether concave faces are split
+  /// Whether vertices that no face of the input uses are noted in the report. They are removed.
+  bool noteUnused = true;
 };
 
 /// Kinds of changes that repair makes.
 enum class RepairKind {
   kWeldedVertex,       ///< a vertex replaced by one at (nearly) the same place
+  kStitchedVertex,     ///< a boundary vertex that entered a face on whose edge it lies
   kRepeatedCorner,     ///< a face that lost repeats (v v) and spikes (a b a)
   kSplitFace,          ///< a face that touched itself, cut into loops
   kDegenerateFace,     ///< a face without three distinct vertices, dropped
@@ -34,7 +38,7 @@ enum class RepairKind {
   kVanishedComponent,  ///< a component of which chording left no face
   kRemovedVertex,      ///< a vertex without a face in the end, removed
 };
-inline constexpr std::size_t kRepairKindCount = 11;
+inline constexpr std::size_t kRepairKindCount = 12;
 
 /// Short name for JSON, such as "welded vertices".
 std::string repairName(RepairKind kind);
@@ -73,7 +77,8 @@ std::string summary(const RepairReport& report);
 ///     corners or more become faces, shorter ones (repeats, spikes, bridges) are dropped. If loops
 ///     lie in each other, as in a keyhole, the face is split into convex faces that leave the holes
 ///     free (convex_faces.h);
-///  3. drop duplicate faces: the first one stays; then split concave faces, those that are not
+///  3. drop duplicate faces: the first one stays; stitch T-junctions (stitch.h); then split
+///     concave faces, those that are not
 ///     star-shaped (star_shaped.h), into convex ones, if the options say so;
 ///  4. cut edges of three or more faces into sheets, and vertices into one copy per fan
 ///     (manifold.h);

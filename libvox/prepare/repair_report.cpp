@@ -14,6 +14,7 @@ struct Phrase {
 };
 constexpr std::array<Phrase, kRepairKindCount> kPhrases = {{
     {"welded", "vertex", "vertices"},
+    {"stitched", "T-junction", "T-junctions"},
     {"removed repeated corners from", "face", "faces"},
     {"split", "face that touches itself", "faces that touch themselves"},
     {"dropped", "degenerate face", "degenerate faces"},

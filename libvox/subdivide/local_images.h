@@ -111,7 +111,7 @@ class LocalImages {
   void mirrorEdge(Index slot, Index next, Index corner);
 
   const SubdivisionLevel& base_;
-  std::vector<Index> faces_;
+  std::vector<Index> faces_;      // a copy: the next set() undoes what they have set
   Index ownSlots_ = 0;            // corners of the submesh; their slots are the first ones
   std::vector<Index> firstSlot_;  // per face of the base, or kNone
   std::vector<Index> known_;      // faces with slots
