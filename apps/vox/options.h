@@ -29,15 +29,18 @@ struct ResolutionOptions {
 };
 void addResolutionOptions(const Command& command, ResolutionOptions& resolution);
 
-/// --boundary, --interpolate and --interpolate-vertices, as typed.
+/// --boundary, --interpolate, --crease and the files of vertices and edges, as typed.
 struct SmoothingArguments {
   std::string boundary;
   std::string interpolate;
   std::string vertexFile;
+  std::string crease;
+  std::string creaseFile;
+  std::string cornerFile;
 };
 void addSmoothingOptions(const Command& command, SmoothingArguments& arguments);
 
-/// Their values; reads the file of vertices.
+/// Their values; reads the files.
 /// @throws UsageError, InputError
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments);
 

@@ -25,6 +25,9 @@ void forEachField(Options& options, Visit&& visit) {
   visit("boundary", options.smoothing.boundary, kBoundaryRuleNames);
   visit("interpolate", options.smoothing.interpolate, kInterpolateNames);
   visit("interpolated-vertices", options.smoothing.interpolatedVertices);
+  visit("crease", options.smoothing.crease);
+  visit("crease-edges", options.smoothing.creaseEdges);
+  visit("corner-vertices", options.smoothing.cornerVertices);
   visit("weld", options.weldTolerance);
   visit("texture", options.texture);
   visit("fill", options.volume.fill, kFillNames);
@@ -60,7 +63,11 @@ class Writer {
   void write(const char* key, bool value) {
     if (value) begin(key);
   }
-  void write(const char* key, const std::vector<Index>& vertices) { write(key, vertices.size()); }
+  template <class T>
+  void write(const char* key, const std::vector<T>& list) {
+    write(key, list.size());
+  }
+  void write(const char* key, const CreaseRule& rule) { write(key, creaseRuleName(rule)); }
   void write(const char* key, const BandWidths& band) {
     write(key, band.in);
     if (!band.isSymmetric()) text_ << ',' << band.out;
@@ -119,8 +126,14 @@ class Reader {
     field = true;
     return !value_;
   }
-  bool read(std::optional<std::vector<Index>>&) const {
-    return value_ && take(numberIn<std::uint64_t>(*value_), recorded_.interpolatedVertices);
+  template <class T>
+  bool read(std::optional<std::vector<T>>&) const {
+    if (!value_ || !numberIn<std::uint64_t>(*value_)) return false;
+    recorded_.lists.emplace_back(key_);
+    return true;
+  }
+  bool read(std::optional<CreaseRule>& field) const {
+    return value_ && take(creaseRuleNamed(*value_), field);
   }
   bool read(std::optional<StopRule>& field) const {
     return value_ && take(stopRuleNamed(*value_), field);

@@ -30,6 +30,7 @@ void moveToIndexSpace(PolygonMesh& mesh, const GridTransform& transform) {
 
 /// Warns of boundaries from which the surface shrinks, and of faces that are not joined.
 void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, ConvertReport& report) {
+  if (!level.seam.empty()) return;  // then the surface is extended, and is no heap of faces
   const std::size_t loops = boundaryLoops(level.mesh, level.adjacency).size();
   if (loops == 0) return;
   constexpr const char* kWhy =

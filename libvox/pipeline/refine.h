@@ -5,6 +5,7 @@
 #include "libvox/options/preparation_options.h"
 #include "libvox/options/run_options.h"
 #include "libvox/pipeline/request.h"
+#include "libvox/prepare/crease.h"
 #include "libvox/prepare/interpolate.h"
 #include "libvox/subdivide/doo_sabin.h"
 
@@ -36,12 +37,13 @@ Refinement refine(const Scene& scene, int levels, const PreparationOptions& prep
 /// Level 0 of an object, ready to subdivide.
 struct PreparedObject {
   SubdivisionLevel base;
+  CreaseCounts creases;
   InterpolationReport interpolation;
   std::vector<std::string> warnings;
 };
 
-/// Prepares an object in world space: repair, orientation, interpolation. Credits the current stage
-/// of `progress`.
+/// Prepares an object in world space: repair, orientation, creases, interpolation. Credits the
+/// current stage of `progress`.
 /// @throws UsageError  the weld tolerance is negative or not finite
 /// @throws MeshError   something had to be repaired or turned round though `strict` forbids it,
 ///   nothing is left after repair, or a vertex cannot be interpolated; the message names file,

@@ -31,6 +31,9 @@ ObjectPreparation preparationOf(const Scene& scene, const SceneObject& object,
   const SmoothingOptions& chosen = byOptions ? first : second;
   result.interpolate = chosen.interpolate.value_or(result.interpolate);
   if (chosen.interpolatedVertices) result.interpolatedVertices = *chosen.interpolatedVertices;
+  result.crease = firstSet({first.crease, second.crease});
+  result.creaseEdges = firstSet({first.creaseEdges, second.creaseEdges});
+  result.cornerVertices = firstSet({first.cornerVertices, second.cornerVertices});
   result.weldTolerance = firstSet({options.weldTolerance, scene.weldTolerance});
   result.strict = firstSet({options.strict, scene.strict});
   return result;
@@ -104,10 +107,15 @@ std::vector<ObjectPreparation> preparationsOf(const Scene& scene,
 }
 
 void requirePreparable(const Scene& scene, const PreparationOptions& options) {
-  if (options.smoothing.interpolatedVertices && scene.objects.size() > 1)
-    throw UsageError("--interpolate-vertices needs a scene of one object, not " +
-                     std::to_string(scene.objects.size()) +
-                     "; use interpolate_vertices in the scene");
+  const auto requireOneObject = [&](const auto& list, const char* option, const char* key) {
+    if (list && scene.objects.size() > 1)
+      throw UsageError(std::string(option) + " needs a scene of one object, not " +
+                       std::to_string(scene.objects.size()) + "; use " + key + " in the scene");
+  };
+  requireOneObject(options.smoothing.interpolatedVertices, "--interpolate-vertices",
+                   "interpolate_vertices");
+  requireOneObject(options.smoothing.creaseEdges, "--crease-edges", "crease_edges");
+  requireOneObject(options.smoothing.cornerVertices, "--corner-vertices", "corner_vertices");
   for (const SceneObject& object : scene.objects) {
     const ObjectPreparation prepared = preparationOf(scene, object, options);
     const bool ofBoundary = prepared.interpolate == Interpolate::kBoundary ||
@@ -116,6 +124,10 @@ void requirePreparable(const Scene& scene, const PreparationOptions& options) {
       throw UsageError(object.name +
                        ": a free boundary cannot be interpolated; use --boundary extend, or "
                        "--interpolate none or interior");
+    if (prepared.boundary == BoundaryRule::kFree && prepared.mayCrease())
+      throw UsageError(object.name +
+                       ": creases need a boundary that the surface reaches; use --boundary extend "
+                       "or corners");
   }
 }
 
