@@ -56,6 +56,7 @@ bool needsInside(const Request& request) {
 /// Notes what preparation did. Refuses vertices that it moved out of the range of the grid.
 void notePreparation(const PreparedObject& prepared, const GridTransform& transform,
                      ObjectReport& part, ConvertReport& report) {
+  part.creases = prepared.creases;
   part.interpolation = prepared.interpolation;
   report.warnings.insert(report.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   requireInRange(usedBox(prepared.base.mesh), transform, part.name + ", once interpolated,");

@@ -172,7 +172,10 @@ Refinement refineAll(const Scene& scene, int levels,
     progress.begin("prepare", works[i].prepare);
     PreparedObject prepared = prepare(scene, object, preparations[i], budget, progress);
     progress.begin("subdivide", works[i].subdivide);
-    PolygonMesh part = subdividedWithin(budget, std::move(prepared.base), levels, progress).mesh;
+    const bool cut = !prepared.base.seam.empty();
+    const SubdivisionLevel level =
+        subdividedWithin(budget, std::move(prepared.base), levels, progress);
+    PolygonMesh part = cut ? joinedAlongCreases(level.mesh, level.adjacency) : level.mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
     budget.take(2 * bytesOf(part), "the refined mesh", kRefineAdvice);

@@ -117,12 +117,15 @@ class VertexCutter {
 
   void cutVertex(Index c) {
     const Index v = mesh_.faceVertices[c];
-    const bool isCorner = sharp_.vertices[v] || (degrees_.sharp[v] > 0 && degrees_.all[v] > 2);
+    const OneRing ring = oneRing(mesh_, adjacency_, c);
+    // The two edges without length of a vertex between two faces would be one.
+    const bool hasTwoFaces = ring.closed && ring.corners.size() == 2 && degrees_.all[v] == 0;
+    const bool isCorner =
+        !hasTwoFaces && (sharp_.vertices[v] || (degrees_.sharp[v] > 0 && degrees_.all[v] > 2));
     if (isCorner) ++counts_.cornerVertices;
     if (!isCorner && degrees_.all[v] == 1) ++counts_.darts;
     if (!isCorner && degrees_.sharp[v] < 2) return;
 
-    const OneRing ring = oneRing(mesh_, adjacency_, c);
     const auto& corners = ring.corners;
     const auto first =
         std::find_if(corners.begin(), corners.end(), [&](Index k) { return ends(k); });
@@ -231,6 +234,49 @@ CutMesh cutCreases(PolygonMesh mesh, Adjacency adjacency, SharpFeatures sharp) {
   for (Index& origin : cut.pointOrigin)
     if (origin >= points) origin = kNone;
   return cut;
+}
+
+PolygonMesh joinedAlongCreases(const PolygonMesh& mesh, const Adjacency& adjacency) {
+  std::vector<Index> boundary;
+  for (Index c = 0; c < mesh.cornerCount(); ++c)
+    if (adjacency.twin[c] == kNone) {
+      boundary.push_back(mesh.faceVertices[c]);
+      boundary.push_back(mesh.faceVertices[nextCorner(mesh, adjacency, c)]);
+    }
+  const auto before = [&](Index a, Index b) {
+    const Vec3d& p = mesh.points[a];
+    const Vec3d& q = mesh.points[b];
+    if (p == q) return a < b;
+    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+  };
+  std::sort(boundary.begin(), boundary.end(), before);
+  boundary.erase(std::unique(boundary.begin(), boundary.end()), boundary.end());
+  std::vector<Index> first(mesh.pointCount());  // the lowest vertex at the place of each
+  std::iota(first.begin(), first.end(), Index{0});
+  for (std::size_t i = 1; i < boundary.size(); ++i)
+    if (mesh.points[boundary[i]] == mesh.points[boundary[i - 1]])
+      first[boundary[i]] = first[boundary[i - 1]];
+
+  PolygonMesh joined;
+  std::vector<Index> number(mesh.pointCount(), kNone);
+  for (Index v = 0; v < mesh.pointCount(); ++v) {
+    if (first[v] != v) continue;
+    number[v] = joined.pointCount();
+    joined.points.push_back(mesh.points[v]);
+    if (!mesh.pointColors.empty()) joined.pointColors.push_back(mesh.pointColors[v]);
+  }
+  std::vector<Index> face;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    face.clear();
+    for (const Index v : mesh.face(f)) {
+      const Index joint = number[first[v]];
+      if (face.empty() || face.back() != joint) face.push_back(joint);
+    }
+    while (face.size() > 1 && face.front() == face.back()) face.pop_back();
+    joined.addFace(face);
+  }
+  joined.faceColors = mesh.faceColors;
+  return joined;
 }
 
 }  // namespace vox

@@ -36,7 +36,8 @@ struct CutMesh {
 /// - A vertex with three or more, or a sharp vertex, becomes a corner. The faces between two sharp
 ///   edges share m + 1 copies of it, and each face gets an edge without length between two of them.
 ///   A quadratic B-spline passes through a doubled control point, so the surface passes through the
-///   vertex. The two boundary edges at a vertex count as sharp.
+///   vertex. The two boundary edges at a vertex count as sharp. A sharp vertex between two faces,
+///   without sharp edges, is no corner.
 /// - A vertex with one sharp edge, a dart, stays. A crease of a single edge with two darts gets a
 ///   vertex in its middle first.
 ///
@@ -44,5 +45,10 @@ struct CutMesh {
 /// @param adjacency  of the mesh
 /// Cost O(C). The result is the mesh itself, and `seam` empty, if nothing is sharp.
 CutMesh cutCreases(PolygonMesh mesh, Adjacency adjacency, SharpFeatures sharp);
+
+/// A refined mesh without its cuts: boundary vertices at exactly the same place become one, and
+/// corners that repeat the one before are dropped. Faces keep their order.
+/// @param adjacency  of the mesh
+PolygonMesh joinedAlongCreases(const PolygonMesh& mesh, const Adjacency& adjacency);
 
 }  // namespace vox
