@@ -33,11 +33,12 @@ struct CutMesh {
 /// Cuts a mesh along its sharp edges.
 /// - A vertex with two sharp edges becomes a copy for each side; the crease is a smooth curve
 /// there.
-/// - A vertex with three or more, or a sharp vertex, becomes a corner. The faces between two sharp
+/// - A vertex with three or more, or a marked vertex, becomes a corner vertex. The faces between
+/// two sharp
 ///   edges share m + 1 copies of it, and each face gets an edge without length between two of them.
 ///   A quadratic B-spline passes through a doubled control point, so the surface passes through the
-///   vertex. The two boundary edges at a vertex count as sharp. A sharp vertex between two faces,
-///   without sharp edges, is no corner.
+///   vertex. The two boundary edges at a vertex count as sharp. A marked vertex between two
+///   faces, without sharp edges, stays as it is.
 /// - A vertex with one sharp edge, a dart, stays. A crease of a single edge with two darts gets a
 ///   vertex in its middle first.
 ///

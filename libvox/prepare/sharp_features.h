@@ -12,8 +12,9 @@ namespace vox {
 
 /// What stays sharp in a sound mesh.
 struct SharpFeatures {
-  std::vector<bool> edges;     ///< per corner: whether its edge is sharp; twins have the same value
-  std::vector<bool> vertices;  ///< per point: whether the surface passes through it in a corner
+  std::vector<bool> edges;  ///< per corner: whether its edge is sharp; twins have the same value
+  std::vector<bool>
+      vertices;  ///< per point: whether it is a corner vertex, which the surface passes through
 };
 SharpFeatures nothingSharp(const PolygonMesh& mesh);
 
