@@ -64,7 +64,7 @@ PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& prep
 std::vector<Index> composed(const std::vector<Index>& first, const std::vector<Index>& second) {
   std::vector<Index> both(second.size(), kNone);
   for (std::size_t i = 0; i < second.size(); ++i)
-    if (second[i] != kNone) both[i] = first[second[i]];
+    if (second[i] < first.size()) both[i] = first[second[i]];
   return both;
 }
 

@@ -81,8 +81,8 @@ class Controls {
     for (std::size_t i = 0; i < run_.size(); ++i) {
       const Index v = run_[i];
       points_[v] = controls[i];
-      const Index origin = cut_.pointOrigin.empty() ? kNone : cut_.pointOrigin[v];
-      if (origin == kNone) continue;
+      if (cut_.pointOrigin.empty()) continue;
+      const Index origin = cut_.pointOrigin[v];
       if (controlAt_[origin] == kNone) controlAt_[origin] = v;
       points_[v] = points_[controlAt_[origin]];
     }

@@ -217,7 +217,6 @@ CutMesh meshOfCopies(PolygonMesh mesh, const Adjacency& adjacency, const SharpFe
 }  // namespace
 
 CutMesh cutCreases(PolygonMesh mesh, Adjacency adjacency, SharpFeatures sharp) {
-  const Index points = mesh.pointCount();
   const std::vector<Index> lonely = lonelyEdges(mesh, adjacency, sharp);
   if (!lonely.empty()) halveEdges(mesh, adjacency, sharp, lonely);
   VertexCutter cutter(mesh, adjacency, sharp);
@@ -231,8 +230,6 @@ CutMesh cutCreases(PolygonMesh mesh, Adjacency adjacency, SharpFeatures sharp) {
     cut.pointOrigin = cutter.takeOrigin();
   }
   cut.counts.sharpEdges -= static_cast<Index>(lonely.size());  // each was halved
-  for (Index& origin : cut.pointOrigin)
-    if (origin >= points) origin = kNone;
   return cut;
 }
 

@@ -21,8 +21,8 @@ struct CreaseCounts {
 /// A mesh cut along its creases. Its faces are those of the mesh before, in the same order.
 struct CutMesh {
   PolygonMesh mesh;
-  std::vector<Index> pointOrigin;  ///< per point: that of the mesh before; kNone for the middle of
-                                   ///< a crease of one edge
+  /// Per point: that of the mesh before. The middles of creases of one edge have further numbers.
+  std::vector<Index> pointOrigin;
   /// Per corner, for boundary edges: the corner of the edge on the other side of the cut; the
   /// corner itself if the edge has no length; kNone if the edge was on the boundary before.
   /// Other corners have kNone. Empty if nothing was cut.
