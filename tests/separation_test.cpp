@@ -45,9 +45,7 @@ bool fine(const PolygonMesh& mesh) {
 Case caseOf(PolygonMesh mesh, double size, std::optional<int> levels = {},
             Separation separation = Separation::k6) {
   for (Vec3d& p : mesh.points) p = p * size + Vec3d(0.13, 0.29, -0.41);
-  const double tolerance = levels               ? 0.0
-                           : std::getenv("TOL") ? atof(std::getenv("TOL"))
-                                                : kTolerance;
+  const double tolerance = levels ? 0.0 : kTolerance;
   Scene scene;
   scene.objects.push_back({"shape", mesh});
   ConvertOptions options;

@@ -120,6 +120,19 @@ RecordedOptions recordedOptions(const openvdb::GridBase& grid, const std::string
   }
 }
 
+/// @throws UsageError  a list that the file was made with is not given
+void requireLists(const std::vector<std::string>& lists, const SmoothingOptions& given,
+                  const std::string& file) {
+  const auto require = [&](const char* list, const char* option, bool isGiven) {
+    if (!isGiven && std::find(lists.begin(), lists.end(), list) != lists.end())
+      throw UsageError(file + ": was made with " + option + "; give the same file here");
+  };
+  require("interpolated-vertices", "--interpolate-vertices",
+          given.interpolatedVertices.has_value());
+  require("crease-edges", "--crease-edges", given.creaseEdges.has_value());
+  require("corner-vertices", "--corner-vertices", given.cornerVertices.has_value());
+}
+
 /// The options that the file was made with; those of the command line win.
 /// @throws InputError  as recordedOptions
 /// @throws UsageError  the file was made with a list of vertices, which it does not hold
@@ -127,13 +140,14 @@ ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const CheckArguments
   RecordedOptions recorded = recordedOptions(grid, options.file);
   ConvertOptions& made = recorded.options;
   const SmoothingOptions given = parseSmoothing(options.smoothing);
-  if (recorded.interpolatedVertices && !given.interpolatedVertices)
-    throw UsageError(options.file +
-                     ": was made with --interpolate-vertices; give the same file here");
+  requireLists(recorded.lists, given, options.file);
   if (given.boundary) made.smoothing.boundary = given.boundary;
   if (given.interpolate) made.smoothing.interpolate = given.interpolate;
   if (given.faces) made.smoothing.faces = given.faces;
   made.smoothing.interpolatedVertices = given.interpolatedVertices;
+  if (given.crease) made.smoothing.crease = given.crease;
+  made.smoothing.creaseEdges = given.creaseEdges;
+  made.smoothing.cornerVertices = given.cornerVertices;
   if (options.weldTolerance) made.weldTolerance = options.weldTolerance;
   if (!options.until.empty()) {
     made.until = parseUntil({{options.until}, {}, {}});

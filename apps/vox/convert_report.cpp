@@ -35,6 +35,10 @@ Json toJson(const ObjectReport& object) {
           {"active_voxels", object.activeVoxels},
           // Infinite if earlier objects have all of its voxels: null in JSON.
           {"vertices_per_voxel", perVoxel(object)},
+          {"creases",
+           {{"sharp_edges", object.creases.sharpEdges},
+            {"corner_vertices", object.creases.cornerVertices},
+            {"darts", object.creases.darts}}},
           {"interpolation",
            {{"boundary_vertices", interpolation.boundaryVertices},
             {"interior_vertices", interpolation.lift.vertices},
@@ -76,6 +80,9 @@ Json optionsJson(const FinishedRun& run) {
        smoothing.interpolate ? Json(nameIn(kInterpolateNames, *smoothing.interpolate)) : Json()},
       {"interpolate_vertices", orNull(smoothing.interpolatedVertices)},
       {"faces", smoothing.faces ? Json(nameIn(kFaceRuleNames, *smoothing.faces)) : Json()},
+      {"crease", smoothing.crease ? Json(creaseRuleName(*smoothing.crease)) : Json()},
+      {"crease_edges", orNull(smoothing.creaseEdges)},
+      {"corner_vertices", orNull(smoothing.cornerVertices)},
       {"weld", orNull(options.weldTolerance)},
       {"drop_components",
        options.dropComponents ? Json(componentLimitText(*options.dropComponents)) : Json()},
@@ -124,6 +131,13 @@ std::string objectText(const ObjectReport& object) {
   return text.str();
 }
 
+std::string creaseText(const ObjectReport& object) {
+  std::ostringstream text;
+  text << object.name << ": " << object.creases.sharpEdges << " sharp edges, "
+       << object.creases.cornerVertices << " corners, " << object.creases.darts << " darts";
+  return text.str();
+}
+
 std::string interpolationText(const ObjectReport& object) {
   const InterpolationReport& done = object.interpolation;
   std::ostringstream text;
@@ -167,6 +181,8 @@ std::vector<std::string> reportLines(const FinishedRun& run) {
   std::vector<std::string> lines;
   for (const ObjectReport& object : report.objects) {
     lines.push_back(objectText(object));
+    if (object.creases.sharpEdges + object.creases.cornerVertices > 0)
+      lines.push_back(creaseText(object));
     if (object.interpolation.boundaryVertices + object.interpolation.lift.vertices > 0)
       lines.push_back(interpolationText(object));
   }

@@ -109,9 +109,10 @@ void addSmoothingOptions(const Command& command, SmoothingArguments& arguments) 
   command
       .add("--boundary", arguments.boundary,
            "Where an open surface ends: at a smooth curve along the boundary of the mesh "
-           "(extend), or short of it, because smoothing shrinks the surface (free) (default: "
-           "the scene's, or extend)")
-      .type("extend|free")
+           "(extend), the same but with corners at vertices that only one face has (corners), or "
+           "short of it, because smoothing shrinks the surface (free) (default: the scene's, or "
+           "extend)")
+      .type("extend|corners|free")
       .group("Smoothing");
   command
       .add("--interpolate", arguments.interpolate,
@@ -124,6 +125,25 @@ void addSmoothingOptions(const Command& command, SmoothingArguments& arguments) 
            "Text file with the numbers of interior vertices that the surface passes through, in "
            "addition to those of --interpolate, counted from 0, separated by blanks; # starts a "
            "comment")
+      .type("FILE")
+      .group("Smoothing");
+  command
+      .add("--crease", arguments.crease,
+           "Edges that stay sharp: those whose faces turn by more than DEG degrees, those between "
+           "the smoothing groups of an OBJ file (groups), or both (40,groups) (default: the "
+           "scene's, or none)")
+      .type("DEG|groups")
+      .group("Smoothing");
+  command
+      .add("--crease-edges", arguments.creaseFile,
+           "Text file of further sharp edges, each as two numbers of vertices, counted from 0, "
+           "separated by blanks; # starts a comment")
+      .type("FILE")
+      .group("Smoothing");
+  command
+      .add("--corner-vertices", arguments.cornerFile,
+           "Text file with the numbers of vertices that the surface passes through in a sharp "
+           "corner, counted from 0")
       .type("FILE")
       .group("Smoothing");
   addFacesOption(command, arguments.faces);
@@ -150,6 +170,14 @@ SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   smoothing.faces = parseFaces(arguments.faces);
   if (!arguments.vertexFile.empty())
     smoothing.interpolatedVertices = readIndices(arguments.vertexFile);
+  if (!arguments.crease.empty()) {
+    smoothing.crease = creaseRuleNamed(arguments.crease);
+    if (!smoothing.crease)
+      throw UsageError("--crease must be " + std::string(kAllCreaseRuleNames) + ", not '" +
+                       arguments.crease + "'");
+  }
+  if (!arguments.creaseFile.empty()) smoothing.creaseEdges = readIndexPairs(arguments.creaseFile);
+  if (!arguments.cornerFile.empty()) smoothing.cornerVertices = readIndices(arguments.cornerFile);
   return smoothing;
 }
 

@@ -29,12 +29,15 @@ struct ResolutionOptions {
 };
 void addResolutionOptions(const Command& command, ResolutionOptions& resolution);
 
-/// --boundary, --interpolate, --interpolate-vertices and --faces, as typed.
+/// --boundary, --interpolate, --faces, --crease and the files of vertices and edges, as typed.
 struct SmoothingArguments {
   std::string boundary;
   std::string faces;
   std::string interpolate;
   std::string vertexFile;
+  std::string crease;
+  std::string creaseFile;
+  std::string cornerFile;
 };
 void addSmoothingOptions(const Command& command, SmoothingArguments& arguments);
 
@@ -43,7 +46,7 @@ void addFacesOption(const Command& command, std::string& faces);
 /// @throws UsageError
 std::optional<FaceRule> parseFaces(const std::string& faces);
 
-/// Their values; reads the file of vertices.
+/// Their values; reads the files.
 /// @throws UsageError, InputError
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments);
 

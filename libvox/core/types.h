@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 
 namespace vox {
@@ -11,6 +12,9 @@ using Vec3f = Eigen::Vector3f;
 
 /// Index of a point, face or corner. Meshes hold fewer than 2^32 - 1 of each.
 using Index = std::uint32_t;
+
+/// The points at the ends of an edge.
+using PointPair = std::array<Index, 2>;
 
 /// "No such element", such as the twin of a boundary corner.
 inline constexpr Index kNone = 0xffffffffU;

@@ -30,6 +30,7 @@ struct NewtonCell {
   int mostSteps = 0;
   bool severalStarts = false;  ///< it turns so much that there may be several local minima
   bool isCurve = false;        ///< a curve in which the surface ends
+  float creaseBias = 0;        ///< voxels added where the foot is at a crease, and not upright
   float stop = 0;              ///< a step of fewer parameters is the last one
   // Its place: parameter u of the square of the corner is u + side[0] a, v is v + side[1] b.
   float u = 0, v = 0;

@@ -16,6 +16,7 @@ constexpr float kLongestCurved = 4;  // voxels
 constexpr float kReachMargin = 0.05F;
 constexpr float kMostSine = 0.5F;  // of the turn of a normal within a cell
 constexpr int kMostDepth = 20;
+constexpr float kCreaseBias = 1e-3F;  // voxels
 
 /// Longest step between control points along u, or along v.
 float longestStep(const LimitPiece& piece, bool alongU) {
@@ -278,6 +279,7 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   cell.surface = shape.c;
   cell.guess = shape.guess;
   cell.isCurve = piece_->boundarySides == kAllSides;
+  if (sides != 0 && !cell.isCurve) cell.creaseBias = kCreaseBias;
   cell.severalStarts = shape.badNormal || shape.sine > kMostSine;
   cell.mostSteps = cell.severalStarts ? 16 : 6;
   // Small cells may be strongly curved: there a small step counts in parameters.

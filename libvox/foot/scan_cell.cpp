@@ -83,7 +83,11 @@ void solve(const NewtonCell& cell, const Float3& shift, Feet& feet) {
     const auto inside =
         hn::And(hn::Lt(hn::Max(hn::Abs(a), hn::Abs(b)), one),
                 hn::And(hn::Lt(set(1e-12F), n2), hn::Lt(hn::Sub(r2, t2), set(0.04F))));
-    const V distance = hn::Sqrt(hn::IfThenElse(inside, hn::Min(t2, r2), r2));
+    const V nearest = hn::Sqrt(hn::IfThenElse(inside, hn::Min(t2, r2), r2));
+    // At a crease both sides have the same foot. The side to which the point lies more upright
+    // tells its sign, so the other one counts as a little farther.
+    const V upright = hn::Sqrt(hn::Min(hn::Div(t2, hn::Max(r2, set(1e-30F))), one));
+    const V distance = mulAdd(set(cell.creaseBias), hn::Sub(one, upright), nearest);
     hn::Store(hn::CopySign(distance, side), d, feet.t.data() + i);
     hn::Store(a, d, feet.a.data() + i);
     hn::Store(b, d, feet.b.data() + i);

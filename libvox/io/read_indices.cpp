@@ -2,6 +2,7 @@
 
 #include "libvox/io/read_indices.h"
 
+#include "libvox/core/error.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/text_scanner.h"
 
@@ -21,6 +22,16 @@ std::vector<Index> readIndices(const std::filesystem::path& file) {
     indices.push_back(static_cast<Index>(index));
   }
   return indices;
+}
+
+std::vector<PointPair> readIndexPairs(const std::filesystem::path& file) {
+  const std::vector<Index> indices = readIndices(file);
+  if (indices.size() % 2 != 0)
+    throw InputError(file.string() + ": has " + std::to_string(indices.size()) +
+                     " numbers, but pairs are wanted: two vertices for each edge");
+  std::vector<PointPair> pairs;
+  for (std::size_t i = 0; i < indices.size(); i += 2) pairs.push_back({indices[i], indices[i + 1]});
+  return pairs;
 }
 
 }  // namespace vox

@@ -12,4 +12,8 @@ namespace vox {
 ///   and line
 std::vector<Index> readIndices(const std::filesystem::path& file);
 
+/// Reads such a file of pairs.
+/// @throws InputError  besides, the last pair lacks a partner
+std::vector<PointPair> readIndexPairs(const std::filesystem::path& file);
+
 }  // namespace vox

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <charconv>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace vox {
@@ -29,6 +30,7 @@ class ObjParser {
     do readLine();
     while (scan_.nextLine());
     checkForwardReferences();
+    if (hasGroups_) mesh_.faceGroups.resize(mesh_.faceCount(), 0);
     if (mesh_.faceCount() == 0) explainNoFaces();
     if (scan_.gluedComments() > 0)
       log_.report.add(Oddity::kGluedComment, scan_.lineOfGluedComment(), ReadReport::kNoElement,
@@ -47,6 +49,7 @@ class ObjParser {
 
   void readLine();
   void readName();
+  void readGroup();
   void readPoint();
   void readFace();
   void readCommentColors();
@@ -62,6 +65,8 @@ class ObjParser {
   FileColors commentColors_;
   Index commentColorCount_ = 0;
   std::uint64_t lines_ = 0;
+  bool hasGroups_ = false;
+  std::uint32_t group_ = 0;
   std::vector<ForwardReference> forward_;  // only those with a larger point than all before
 };
 
@@ -74,6 +79,8 @@ void ObjParser::readLine() {
     readFace();
   } else if (is("mtllib", "usemtl", "o", "g")) {
     readName();
+  } else if (is("s")) {
+    readGroup();
   } else if (is("curv", "curv2", "surf")) {
     log_.report.add(Oddity::kFreeForm, scan_.line());
   } else if (is("l")) {
@@ -87,6 +94,17 @@ void ObjParser::readLine() {
 void ObjParser::readName() {
   std::string_view name = scan_.restOfLine();
   if (name.ends_with('\\')) log_.report.add(Oddity::kBackslashName, scan_.line());
+}
+
+// Line "s N", "s on" or "s off": the smoothing group of the faces that follow. 0, and anything that
+// is no number, is off.
+void ObjParser::readGroup() {
+  const std::string_view name = scan_.token();
+  hasGroups_ = true;
+  group_ = name == "on" ? 1 : 0;
+  std::uint32_t number = 0;
+  if (std::from_chars(name.data(), name.data() + name.size(), number).ec == std::errc())
+    group_ = number;
 }
 
 void ObjParser::readCommentColors() {
@@ -153,6 +171,10 @@ void ObjParser::readFace() {
     return;
   }
   mesh_.faceOffsets.push_back(mesh_.cornerCount());
+  if (hasGroups_) {
+    mesh_.faceGroups.resize(mesh_.faceCount() - 1, 0);
+    mesh_.faceGroups.push_back(group_);
+  }
 }
 
 // Corner "v", "v/vt", "v//vn" or "v/vt/vn". Positive indices count from 1, negative ones back from

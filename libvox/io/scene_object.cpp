@@ -111,12 +111,41 @@ PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& sce
   text.fail(table, "an object needs either mesh, or points and faces");
 }
 
-std::vector<Index> readVertexList(const SceneText& text, const toml::node& node, Index pointCount) {
+Index readVertex(const SceneText& text, const toml::node& node, Index pointCount) {
+  return static_cast<Index>(
+      requireInteger(text, node, "a vertex (0-based)", 0, std::int64_t{pointCount} - 1));
+}
+
+std::vector<Index> readVertexList(const SceneText& text, const toml::node& node, const char* key,
+                                  Index pointCount) {
   std::vector<Index> vertices;
-  for (const toml::node& vertex : requireArray(text, node, "interpolate_vertices"))
-    vertices.push_back(static_cast<Index>(
-        requireInteger(text, vertex, "a vertex (0-based)", 0, std::int64_t{pointCount} - 1)));
+  for (const toml::node& vertex : requireArray(text, node, key))
+    vertices.push_back(readVertex(text, vertex, pointCount));
   return vertices;
+}
+
+std::vector<PointPair> readEdgeList(const SceneText& text, const toml::node& node,
+                                    Index pointCount) {
+  std::vector<PointPair> edges;
+  for (const toml::node& edge : requireArray(text, node, "crease_edges")) {
+    const std::vector<Index> ends = readVertexList(text, edge, "an edge", pointCount);
+    if (ends.size() != 2) text.fail(edge, "an edge must be a list of two vertices, [3, 7]");
+    edges.push_back({ends[0], ends[1]});
+  }
+  return edges;
+}
+
+/// Reads the value of a key `crease`: 40, "groups" or "40,groups".
+CreaseRule readCrease(const SceneText& text, const toml::node& node) {
+  std::ostringstream name;
+  name.imbue(std::locale::classic());
+  name.precision(17);
+  if (node.is_number())
+    name << requireNumber(text, node, "crease");
+  else
+    name << requireString(text, node, "crease");
+  if (const auto rule = creaseRuleNamed(name.str())) return *rule;
+  text.fail(node, std::string("crease must be ") + kAllCreaseRuleNames);
 }
 
 SmoothingOptions readSmoothing(const SceneText& text, const toml::table& table, Index pointCount) {
@@ -125,7 +154,13 @@ SmoothingOptions readSmoothing(const SceneText& text, const toml::table& table, 
   readNamed(text, table, "interpolate", kInterpolateNames, smoothing.interpolate);
   readNamed(text, table, "concave_faces", kFaceRuleNames, smoothing.faces);
   if (const auto* node = table.get("interpolate_vertices"))
-    smoothing.interpolatedVertices = readVertexList(text, *node, pointCount);
+    smoothing.interpolatedVertices =
+        readVertexList(text, *node, "interpolate_vertices", pointCount);
+  if (const auto* node = table.get("crease")) smoothing.crease = readCrease(text, *node);
+  if (const auto* node = table.get("crease_edges"))
+    smoothing.creaseEdges = readEdgeList(text, *node, pointCount);
+  if (const auto* node = table.get("corner_vertices"))
+    smoothing.cornerVertices = readVertexList(text, *node, "corner_vertices", pointCount);
   return smoothing;
 }
 
@@ -192,10 +227,10 @@ void scaleObject(SceneObject& object, double scale, const fs::path& file) {
 }
 
 SceneObject readObject(SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(
-      text, table, "[[object]]",
-      {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
-       "interpolate_vertices", "concave_faces", "until", "voxelize", "texture", "drop_components"});
+  requireKnownKeys(text, table, "[[object]]",
+                   {"name", "mesh", "points", "faces", "transform", "boundary", "interpolate",
+                    "interpolate_vertices", "concave_faces", "crease", "crease_edges",
+                    "corner_vertices", "until", "voxelize", "texture", "drop_components"});
   SceneObject object;
   object.name = "object " + std::to_string(scene.objects.size() + 1);
   if (const auto* name = table.get("name")) object.name = requireString(text, *name, "name");

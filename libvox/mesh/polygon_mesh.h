@@ -2,6 +2,7 @@
 
 #include "libvox/core/types.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct PolygonMesh {
   std::vector<Index> faceVertices;       ///< C: the point of each corner
   std::vector<Vec3f> pointColors;        ///< V linear colours, 0 to 1, or empty
   std::vector<Vec3f> faceColors;         ///< F linear colours, 0 to 1, or empty
+  std::vector<std::uint32_t> faceGroups = {};  ///< F smoothing groups, 0: flat; or empty
 
   Index faceCount() const { return static_cast<Index>(faceOffsets.size() - 1); }
   Index cornerCount() const { return static_cast<Index>(faceVertices.size()); }
@@ -38,7 +40,7 @@ struct PolygonMesh {
   }
 };
 
-/// Appends `part` to `all`, without colours.
+/// Appends `part` to `all`, without colours and groups.
 /// Precondition: together they have fewer than 2^32 - 1 points, faces and corners.
 inline void append(PolygonMesh& all, const PolygonMesh& part) {
   const Index firstPoint = all.pointCount();

@@ -154,6 +154,8 @@ void requireValidArrays(const PolygonMesh& mesh) {
   };
   if (!fits(mesh.pointColors, mesh.pointCount()) || !fits(mesh.faceColors, mesh.faceCount()))
     throw MeshError("pointColors and faceColors must have one colour per point and face, or none");
+  if (!fits(mesh.faceGroups, mesh.faceCount()))
+    throw MeshError("faceGroups must have one group per face, or none");
   for (Index v = 0; v < mesh.pointCount(); ++v)
     if (!mesh.points[v].allFinite())
       throw MeshError("vertex " + str(v) + " has a coordinate that is not finite");

@@ -27,6 +27,9 @@ void forEachField(Options& options, Visit&& visit) {
   visit("interpolate", options.smoothing.interpolate, kInterpolateNames);
   visit("interpolated-vertices", options.smoothing.interpolatedVertices);
   visit("faces", options.smoothing.faces, kFaceRuleNames);
+  visit("crease", options.smoothing.crease);
+  visit("crease-edges", options.smoothing.creaseEdges);
+  visit("corner-vertices", options.smoothing.cornerVertices);
   visit("weld", options.weldTolerance);
   visit("drop-components", options.dropComponents);
   visit("texture", options.texture);
@@ -64,7 +67,11 @@ class Writer {
   void write(const char* key, bool value) {
     if (value) begin(key);
   }
-  void write(const char* key, const std::vector<Index>& vertices) { write(key, vertices.size()); }
+  template <class T>
+  void write(const char* key, const std::vector<T>& list) {
+    write(key, list.size());
+  }
+  void write(const char* key, const CreaseRule& rule) { write(key, creaseRuleName(rule)); }
   void write(const char* key, const BandWidths& band) {
     write(key, band.in);
     if (!band.isSymmetric()) text_ << ',' << band.out;
@@ -126,8 +133,14 @@ class Reader {
     field = true;
     return !value_;
   }
-  bool read(std::optional<std::vector<Index>>&) const {
-    return value_ && take(numberIn<std::uint64_t>(*value_), recorded_.interpolatedVertices);
+  template <class T>
+  bool read(std::optional<std::vector<T>>&) const {
+    if (!value_ || !numberIn<std::uint64_t>(*value_)) return false;
+    recorded_.lists.emplace_back(key_);
+    return true;
+  }
+  bool read(std::optional<CreaseRule>& field) const {
+    return value_ && take(creaseRuleNamed(*value_), field);
   }
   bool read(std::optional<StopRule>& field) const {
     return value_ && take(stopRuleNamed(*value_), field);

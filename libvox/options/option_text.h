@@ -2,26 +2,26 @@
 
 #include "libvox/options/convert_options.h"
 
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vox {
 
 /// Metadata of grids: the options of the conversion, as optionText() writes them.
 inline constexpr const char* kOptionsMetadata = "vox_options";
 
-/// The options that change the voxels and are set, as words: "dim=256 boundary=free half". Vertices
-/// to interpolate are only counted. Not written: grids, strict, separation, compression, and what
-/// does not change the grids.
+/// The options that change the voxels and are set, as words: "dim=256 boundary=free half". Lists of
+/// vertices and edges are only counted. Not written: grids, strict, separation, compression, and
+/// what does not change the grids.
 std::string optionText(const ConvertOptions& options);
 
 /// Options read from such a text.
 struct RecordedOptions {
   ConvertOptions options;
-  /// Number of the vertices that were interpolated; which ones, the text does not tell.
-  std::optional<std::uint64_t> interpolatedVertices;
+  /// The options that are lists of vertices or edges, by their words ("corner-vertices"). The text
+  /// only counts what is in them.
+  std::vector<std::string> lists;
 };
 
 /// Reads what optionText() writes: of all numbers that stand in the text themselves, the same bits.

@@ -2,6 +2,7 @@
 
 #include "libvox/core/names.h"
 #include "libvox/core/types.h"
+#include "libvox/options/crease_rule.h"
 
 #include <optional>
 #include <vector>
@@ -10,11 +11,14 @@ namespace vox {
 
 /// How the smooth surface of an open mesh ends (DESIGN section 4).
 enum class BoundaryRule {
-  kExtend,  ///< at the closed uniform quadratic B-spline of each boundary loop
-  kFree,    ///< plain Doo-Sabin: the surface ends half a face inside the boundary of the mesh
+  kExtend,   ///< at the closed uniform quadratic B-spline of each boundary loop
+  kFree,     ///< plain Doo-Sabin: the surface ends half a face inside the boundary of the mesh
+  kCorners,  ///< as kExtend, but boundary vertices with a single face are corners (section 19)
 };
-inline constexpr NameTable<BoundaryRule, 2> kBoundaryRuleNames = {
-    {{BoundaryRule::kExtend, "extend"}, {BoundaryRule::kFree, "free"}}};
+inline constexpr NameTable<BoundaryRule, 3> kBoundaryRuleNames = {
+    {{BoundaryRule::kExtend, "extend"},
+     {BoundaryRule::kFree, "free"},
+     {BoundaryRule::kCorners, "corners"}}};
 
 /// Which vertices of the input the smooth surface passes through.
 enum class Interpolate { kNothing, kInterior, kBoundary, kBoth };
@@ -39,6 +43,9 @@ struct SmoothingOptions {
   std::optional<Interpolate> interpolate;                  ///< default: kNothing
   std::optional<std::vector<Index>> interpolatedVertices;  ///< interior, added to `interpolate`
   std::optional<FaceRule> faces;                           ///< default: kSplit
+  std::optional<CreaseRule> crease;                        ///< default: nothing is sharp
+  std::optional<std::vector<PointPair>> creaseEdges;       ///< sharp, added to `crease`
+  std::optional<std::vector<Index>> cornerVertices;        ///< where the surface has a corner
 };
 
 }  // namespace vox

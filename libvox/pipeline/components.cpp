@@ -20,8 +20,11 @@ MeshComponent::Side sideOf(const PolygonMesh& mesh, const MeshComponent& compone
 std::vector<MeshComponent> componentsOf(const SubdivisionLevel& base) {
   const auto& [twin, cornerFace] = base.adjacency;
   WindingForest forest(base.mesh.faceCount());
-  for (Index c = 0; c < base.mesh.cornerCount(); ++c)
+  for (Index c = 0; c < base.mesh.cornerCount(); ++c) {
     if (twin[c] != kNone) forest.unite(cornerFace[c], cornerFace[twin[c]], false);
+    if (!base.seam.empty() && base.seam[c] != kNone)
+      forest.unite(cornerFace[c], cornerFace[base.seam[c]], false);
+  }
 
   std::vector<MeshComponent> components;
   std::vector<Index> number(base.mesh.faceCount(),
@@ -35,7 +38,7 @@ std::vector<MeshComponent> componentsOf(const SubdivisionLevel& base) {
     MeshComponent& component = components[n];
     component.faces.push_back(f);
     for (Index c = base.mesh.faceOffsets[f]; c < base.mesh.faceOffsets[f + 1]; ++c)
-      if (twin[c] == kNone && component.boundaryCorner == kNone) component.boundaryCorner = c;
+      if (base.isOpen(c) && component.boundaryCorner == kNone) component.boundaryCorner = c;
   }
   for (MeshComponent& component : components) component.side = sideOf(base.mesh, component);
   return components;

@@ -6,7 +6,7 @@
 
 namespace vox {
 
-/// A set of faces that are connected through edges.
+/// A set of faces that are connected through edges, also across creases.
 struct MeshComponent {
   std::vector<Index> faces;      ///< ascending
   Index boundaryCorner = kNone;  ///< a corner whose edge has no other face; kNone if closed

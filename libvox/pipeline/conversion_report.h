@@ -2,6 +2,7 @@
 
 #include "libvox/core/types.h"
 #include "libvox/options/stop_rule.h"
+#include "libvox/prepare/crease.h"
 #include "libvox/prepare/interpolate.h"
 #include "libvox/voxelize/level_counts.h"
 
@@ -37,6 +38,7 @@ struct ObjectReport {
   bool byPolygons = false;         ///< true: polygons were scanned; false: vertices were rounded
   StopRule until;                  ///< where the refinement of its polygons stopped
   PolygonReport polygons;
+  CreaseCounts creases;
   InterpolationReport interpolation;  ///< its residual is in world units
 };
 

@@ -30,6 +30,7 @@ void moveToIndexSpace(PolygonMesh& mesh, const GridTransform& transform) {
 
 /// Warns of boundaries from which the surface shrinks, and of faces that are not joined.
 void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, ConvertReport& report) {
+  if (!level.seam.empty()) return;  // then the surface is extended, and is no heap of faces
   const std::size_t loops = boundaryLoops(level.mesh, level.adjacency).size();
   if (loops == 0) return;
   constexpr const char* kWhy =
@@ -68,6 +69,7 @@ void warnOfColors(const Scene& scene, const Request& request, ConvertReport& rep
 /// Notes what preparation did. Refuses vertices that it moved out of the range of the grid.
 void notePreparation(const PreparedObject& prepared, const GridTransform& transform,
                      ObjectReport& part, ConvertReport& report) {
+  part.creases = prepared.creases;
   part.interpolation = prepared.interpolation;
   report.warnings.insert(report.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   requireInRange(usedBox(prepared.base.mesh), transform, part.name + ", once interpolated,");

@@ -39,10 +39,12 @@ auto namingObject(const Scene& scene, const SceneObject& object, Work&& work) {
   }
 }
 
-/// The input vertices that the vertices of a prepared mesh come from.
-struct VertexOrigin {
+/// The elements of the input that those of a prepared mesh come from.
+struct ElementOrigin {
   std::vector<Index> weldedTo;  ///< for each input vertex: the one that it was welded to, or itself
-  std::vector<Index> of;        ///< for each prepared vertex: an input vertex
+  std::vector<Index> points;    ///< for each prepared vertex: an input vertex, or kNone
+  std::vector<Index> faces;     ///< for each prepared face: an input face, of those not dropped
+  std::vector<std::uint32_t> groups;  ///< smoothing groups of those input faces, or empty
 };
 
 /// Warns of what reading the file of an object has lost. Strict: refuses a file that is odd at all.
@@ -78,11 +80,12 @@ PolygonMesh keptMeshOf(const SceneObject& object, const ObjectPreparation& prepa
 
 /// The mesh of an object made sound; a warning tells what was done to it.
 PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
-                        VertexOrigin& origin, std::vector<std::string>& warnings) {
+                        ElementOrigin& origin, std::vector<std::string>& warnings) {
   DebrisReport debris;
   SoundReport report;
-  PolygonMesh mesh =
-      soundMesh(keptMeshOf(object, preparation, debris), repairOptionsOf(preparation), report);
+  PolygonMesh kept = keptMeshOf(object, preparation, debris);
+  origin.groups = std::move(kept.faceGroups);
+  PolygonMesh mesh = soundMesh(std::move(kept), repairOptionsOf(preparation), report);
   std::string done = summary(report);
   if (preparation.strict && !done.empty())
     throw MeshError("needs repair, which strict forbids: " + firstAction(report) +
@@ -93,12 +96,47 @@ PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& prep
   if (!split.empty()) done += (done.empty() ? "" : ", ") + split;
   if (!done.empty()) warnings.push_back(object.name + ": " + done);
   origin.weldedTo = std::move(report.repair.weldedTo);
-  origin.of = std::move(report.orient.pointOrigin);
+  origin.points = std::move(report.orient.pointOrigin);
+  origin.faces = std::move(report.orient.faceOrigin);
   return mesh;
 }
 
+/// The origin of elements that were made in two steps.
+std::vector<Index> composed(const std::vector<Index>& first, const std::vector<Index>& second) {
+  std::vector<Index> both(second.size(), kNone);
+  for (std::size_t i = 0; i < second.size(); ++i)
+    if (second[i] < first.size()) both[i] = first[second[i]];
+  return both;
+}
+
+/// The edges and vertices that stay sharp. A warning tells of edges that are none.
+SharpFeatures sharpFeaturesOf(const SceneObject& object, const ObjectPreparation& preparation,
+                              const PolygonMesh& mesh, const Adjacency& adjacency,
+                              const ElementOrigin& origin, std::vector<std::string>& warnings) {
+  const InputElements input{origin.weldedTo, origin.points, origin.faces};
+  SharpFeatures sharp = nothingSharp(mesh);
+  if (preparation.crease.degrees)
+    markByAngle(mesh, adjacency, input, *preparation.crease.degrees, sharp);
+  if (preparation.crease.groups && origin.groups.empty())
+    warnings.push_back(object.name + ": has no smoothing groups, so no edge is sharp by group");
+  else if (preparation.crease.groups)
+    markByGroups(adjacency, input, origin.groups, sharp);
+  const std::vector<std::size_t> missing =
+      markByPoints(mesh, adjacency, input, preparation.creaseEdges, sharp);
+  if (!missing.empty()) {
+    const PointPair& first = preparation.creaseEdges[missing[0]];
+    warnings.push_back(object.name + ": " + std::to_string(missing.size()) + " of " +
+                       std::to_string(preparation.creaseEdges.size()) +
+                       " sharp edges are no edges of the mesh; the first is " +
+                       std::to_string(first[0]) + " " + std::to_string(first[1]));
+  }
+  markVertices(input, preparation.cornerVertices, sharp);
+  if (preparation.boundary == BoundaryRule::kCorners) markBoundaryCorners(mesh, adjacency, sharp);
+  return sharp;
+}
+
 /// The vertices of the prepared mesh that come from some input vertices, copies included.
-std::vector<Index> verticesFrom(std::span<const Index> inputVertices, const VertexOrigin& origin) {
+std::vector<Index> verticesFrom(std::span<const Index> inputVertices, const ElementOrigin& origin) {
   std::vector<Index> wanted(origin.weldedTo.size(), kNone);
   for (const Index v : inputVertices) {
     if (v >= origin.weldedTo.size())
@@ -109,10 +147,11 @@ std::vector<Index> verticesFrom(std::span<const Index> inputVertices, const Vert
   }
   std::vector<Index> found;
   std::vector<bool> seen(wanted.size(), false);
-  for (Index v = 0; v < origin.of.size(); ++v) {
-    if (wanted[origin.of[v]] == kNone) continue;
+  for (Index v = 0; v < origin.points.size(); ++v) {
+    const Index from = origin.points[v];
+    if (from == kNone || wanted[from] == kNone) continue;
     found.push_back(v);
-    seen[origin.of[v]] = true;
+    seen[from] = true;
   }
   for (Index w = 0; w < wanted.size(); ++w)
     if (wanted[w] != kNone && !seen[w])
@@ -208,8 +247,10 @@ Refinement refineAll(const Scene& scene, int levels,
     progress.begin("prepare", works[i].prepare);
     PreparedObject prepared = prepare(scene, object, preparations[i], budget, progress);
     progress.begin("subdivide", works[i].subdivide);
-    PolygonMesh part =
-        subdividedWithin(budget, std::move(prepared.base), levels, progress, Colors::kKept).mesh;
+    const bool cut = !prepared.base.seam.empty();
+    const SubdivisionLevel level =
+        subdividedWithin(budget, std::move(prepared.base), levels, progress, Colors::kKept);
+    PolygonMesh part = cut ? joinedAlongCreases(level.mesh, level.adjacency) : level.mesh;
     all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
     // A vector that grows holds up to twice what it needs while it moves.
     budget.take(2 * bytesOf(part), "the refined mesh", kRefineAdvice);
@@ -284,18 +325,32 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
   noteReading(object, preparation.strict, prepared.warnings);
   SubdivisionLevel& base = prepared.base;
   namingObject(scene, object, [&] {
-    VertexOrigin origin;
+    ElementOrigin origin;
     PolygonMesh mesh = soundMeshOf(object, preparation, origin, prepared.warnings);
     progress.check();
+    std::vector<Index> pointBeforeCut;
+    std::vector<Index> seam;
+    if (preparation.mayCrease()) {
+      const Adjacency adjacency = buildAdjacency(mesh);
+      const SharpFeatures sharp =
+          sharpFeaturesOf(object, preparation, mesh, adjacency, origin, prepared.warnings);
+      CutMesh cut = cutCreases(std::move(mesh), adjacency, sharp);
+      mesh = std::move(cut.mesh);
+      seam = std::move(cut.seam);
+      pointBeforeCut = std::move(cut.pointOrigin);
+      prepared.creases = cut.counts;
+      origin.points = composed(origin.points, pointBeforeCut);
+    }
     base = baseLevel(std::move(mesh), preparation.boundary);
+    base.seam = std::move(seam);
     progress.check();
     if (!preparation.interpolates()) return;
     progress.done(kPartBeforeInterpolation);
     budget.require(bytesOf(base) + bytesOfInterpolation(base.mesh), "interpolation",
                    "raise --max-memory");
-    base.mesh =
-        interpolate(std::move(base.mesh), base.adjacency, preparation.interpolate,
-                    verticesFrom(preparation.interpolatedVertices, origin), prepared.interpolation);
+    base.mesh = interpolate(std::move(base.mesh), base.adjacency, preparation.interpolate,
+                            verticesFrom(preparation.interpolatedVertices, origin),
+                            prepared.interpolation, {base.seam, pointBeforeCut});
   });
   return prepared;
 }

@@ -6,6 +6,7 @@
 #include "libvox/options/preparation_options.h"
 #include "libvox/options/run_options.h"
 #include "libvox/pipeline/request.h"
+#include "libvox/prepare/crease.h"
 #include "libvox/prepare/interpolate.h"
 #include "libvox/subdivide/doo_sabin.h"
 
@@ -38,6 +39,7 @@ Refinement refine(const Scene& scene, int levels, const PreparationOptions& prep
 /// Level 0 of an object, ready to subdivide.
 struct PreparedObject {
   SubdivisionLevel base;
+  CreaseCounts creases;
   InterpolationReport interpolation;
   std::vector<std::string> warnings;
 };
@@ -49,7 +51,8 @@ Box keptBox(const Scene& scene, const SceneObject& object, const ObjectPreparati
 /// What is said of the gaps of an object (gaps.h), in world units.
 std::string gapsOf(const SceneObject& object, const ObjectPreparation& preparation);
 
-/// Prepares an object in world space: dropping of debris, repair, orientation, interpolation.
+/// Prepares an object in world space: dropping of debris, repair, orientation, creases,
+/// interpolation.
 /// Credits the current stage of `progress`.
 /// @throws UsageError  the weld tolerance is negative or not finite
 /// @throws MeshError   something had to be repaired or turned round though `strict` forbids it,

@@ -32,6 +32,9 @@ ObjectPreparation preparationOf(const Scene& scene, const SceneObject& object,
   result.interpolate = chosen.interpolate.value_or(result.interpolate);
   if (chosen.interpolatedVertices) result.interpolatedVertices = *chosen.interpolatedVertices;
   result.faces = firstSet({first.faces, second.faces}, result.faces);
+  result.crease = firstSet({first.crease, second.crease});
+  result.creaseEdges = firstSet({first.creaseEdges, second.creaseEdges});
+  result.cornerVertices = firstSet({first.cornerVertices, second.cornerVertices});
   result.weldTolerance = firstSet({options.weldTolerance, scene.weldTolerance});
   result.dropComponents =
       firstSet({options.dropComponents, object.dropComponents, scene.dropComponents});
@@ -50,7 +53,8 @@ VolumeSettings volumeOf(const VolumeOptions& first, const VolumeOptions& second)
   choose(&VolumeOptions::band, all.band);
   choose(&VolumeOptions::half, all.half);
   choose(&VolumeOptions::target, all.target);
-  all.edge = firstSet({first.edge, second.edge}, defaultEdge(first.target ? first.target : second.target));
+  all.edge =
+      firstSet({first.edge, second.edge}, defaultEdge(first.target ? first.target : second.target));
   all.tolerance = first.tolerance ? first.tolerance : second.tolerance;
   all.gain = first.gain ? first.gain : second.gain;
   all.compression = first.compression ? first.compression : second.compression;
@@ -111,10 +115,15 @@ std::vector<ObjectPreparation> preparationsOf(const Scene& scene,
 }
 
 void requirePreparable(const Scene& scene, const PreparationOptions& options) {
-  if (options.smoothing.interpolatedVertices && scene.objects.size() > 1)
-    throw UsageError("--interpolate-vertices needs a scene of one object, not " +
-                     std::to_string(scene.objects.size()) +
-                     "; use interpolate_vertices in the scene");
+  const auto requireOneObject = [&](const auto& list, const char* option, const char* key) {
+    if (list && scene.objects.size() > 1)
+      throw UsageError(std::string(option) + " needs a scene of one object, not " +
+                       std::to_string(scene.objects.size()) + "; use " + key + " in the scene");
+  };
+  requireOneObject(options.smoothing.interpolatedVertices, "--interpolate-vertices",
+                   "interpolate_vertices");
+  requireOneObject(options.smoothing.creaseEdges, "--crease-edges", "crease_edges");
+  requireOneObject(options.smoothing.cornerVertices, "--corner-vertices", "corner_vertices");
   for (const SceneObject& object : scene.objects) {
     const ObjectPreparation prepared = preparationOf(scene, object, options);
     const bool ofBoundary = prepared.interpolate == Interpolate::kBoundary ||
@@ -123,6 +132,10 @@ void requirePreparable(const Scene& scene, const PreparationOptions& options) {
       throw UsageError(object.name +
                        ": a free boundary cannot be interpolated; use --boundary extend, or "
                        "--interpolate none or interior");
+    if (prepared.boundary == BoundaryRule::kFree && prepared.mayCrease())
+      throw UsageError(object.name +
+                       ": creases need a boundary that the surface reaches; use --boundary extend "
+                       "or corners");
   }
 }
 

@@ -32,11 +32,19 @@ struct ObjectPreparation {
   BoundaryRule boundary = BoundaryRule::kExtend;
   Interpolate interpolate = Interpolate::kNothing;
   std::vector<Index> interpolatedVertices = {};  ///< interior ones, besides `interpolate`
+  CreaseRule crease = {};
+  std::vector<PointPair> creaseEdges = {};  ///< sharp besides
+  std::vector<Index> cornerVertices = {};   ///< where the surface has a corner
   FaceRule faces = FaceRule::kSplit;
   double weldTolerance = 0;            ///< world units
   ComponentLimit dropComponents = {};  ///< components below it are left out
   bool strict = false;                 ///< a mesh that needs repair is refused
 
+  /// True if some edge or vertex may be sharp.
+  bool mayCrease() const {
+    return crease.degrees || crease.groups || !creaseEdges.empty() || !cornerVertices.empty() ||
+           boundary == BoundaryRule::kCorners;
+  }
   /// True if the surface is to pass through some vertex.
   bool interpolates() const {
     return interpolate != Interpolate::kNothing || !interpolatedVertices.empty();
@@ -47,8 +55,8 @@ struct ObjectPreparation {
 std::vector<ObjectPreparation> preparationsOf(const Scene& scene,
                                               const PreparationOptions& options);
 
-/// @throws UsageError  the boundary of an object is to be interpolated but free; the options name
-///   vertices to interpolate, but the scene has several objects
+/// @throws UsageError  the boundary of an object is free, but is to be interpolated or has creases;
+///   the options list vertices or edges, but the scene has several objects
 void requirePreparable(const Scene& scene, const PreparationOptions& options);
 
 /// What to do with an object.

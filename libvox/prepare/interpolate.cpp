@@ -4,7 +4,6 @@
 #include "libvox/prepare/interpolate.h"
 
 #include "libvox/mesh/vertex_kind.h"
-#include "libvox/prepare/boundary.h"
 
 #include <algorithm>
 #include <utility>
@@ -27,10 +26,27 @@ std::vector<Index> verticesToLift(const PolygonMesh& mesh, const std::vector<Ver
   return vertices;
 }
 
+/// The vertices that are no corners of creases.
+std::vector<Index> withoutCorners(const PolygonMesh& mesh, const CreaseCut& cut,
+                                  std::span<const Index> vertices) {
+  std::vector<Index> others(vertices.begin(), vertices.end());
+  if (cut.seam.empty()) return others;
+  std::vector<bool> isCorner(mesh.pointCount(), false);
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+    for (Index c = mesh.faceOffsets[f]; c < mesh.faceOffsets[f + 1]; ++c) {
+      if (cut.seam[c] != c) continue;  // not an edge without length
+      const Index next = c + 1 == mesh.faceOffsets[f + 1] ? mesh.faceOffsets[f] : c + 1;
+      isCorner[mesh.faceVertices[c]] = isCorner[mesh.faceVertices[next]] = true;
+    }
+  std::erase_if(others, [&](Index v) { return v < isCorner.size() && isCorner[v]; });
+  return others;
+}
+
 }  // namespace
 
 PolygonMesh interpolate(PolygonMesh mesh, const Adjacency& adjacency, Interpolate which,
-                        std::span<const Index> prescribed, InterpolationReport& report) {
+                        std::span<const Index> prescribed, InterpolationReport& report,
+                        const CreaseCut& cut) {
   report = {};
   const bool interior = which == Interpolate::kInterior || which == Interpolate::kBoth;
   const bool boundary = which == Interpolate::kBoundary || which == Interpolate::kBoth;
@@ -38,9 +54,10 @@ PolygonMesh interpolate(PolygonMesh mesh, const Adjacency& adjacency, Interpolat
   if (boundary) {
     report.boundaryVertices =
         static_cast<Index>(std::count(kinds.begin(), kinds.end(), VertexKind::kBoundary));
-    mesh = interpolateBoundary(std::move(mesh), adjacency);
+    mesh = interpolateBoundary(std::move(mesh), adjacency, cut);
   }
-  const std::vector<Index> vertices = verticesToLift(mesh, kinds, interior, boundary, prescribed);
+  const std::vector<Index> vertices =
+      verticesToLift(mesh, kinds, interior, boundary, withoutCorners(mesh, cut, prescribed));
   if (vertices.empty()) return mesh;
   return lift(std::move(mesh), adjacency, vertices, report.lift);
 }

@@ -7,7 +7,9 @@
 #include "libvox/subdivide/patch_steps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -44,8 +46,27 @@ class AngleCriterion : public Criterion {
     take(faces.hasL && faces.hasVFace, faces.vFace.normal, l);
     return largest <= limit_;
   }
+  int creaseDepth(const CurvePoints& points, int most) const override {
+    const Vec3d first = points[1] - points[0];
+    const Vec3d last = points[2] - points[1];
+    const double edge = longestEdge(points);
+    const double turn = angleBetween(first.normalized(), last.normalized());
+    if (turn == 0 || turn == kStraightAngle) return 0;  // all points lie on a line
+    // Directions turn most where edges are shortest: at the point of the line of edges, from the
+    // first to the last, that is nearest to 0. There the turn of a step is below bend / shortest.
+    const Vec3d bend = last - first;
+    const double at = std::clamp(-first.dot(bend) / bend.squaredNorm(), 0.0, 1.0);
+    const double shortest = (first + at * bend).norm();
+    return leastDepth(most, [&](int k) {
+      return std::ldexp(edge, -k) <= 1 ||
+             std::ldexp(bend.norm(), -k) <= shortest * limit_ * kRadian;
+    });
+  }
 
  private:
+  static constexpr double kStraightAngle = 180;
+  static constexpr double kRadian = std::numbers::pi / kStraightAngle;
+
   /// Largest angle, in degrees, between neighbouring faces that touch one of the n x n descendants;
   /// stops at the first angle above the limit. Rows -1 and n, too, are in the closed form.
   double largestAngle(const Patch& patch, std::int64_t n) const {

@@ -4,6 +4,7 @@
 #include "libvox/subdivide/face_shape.h"
 #include "libvox/subdivide/vertex_array.h"
 
+#include <algorithm>
 #include <array>
 
 namespace vox {
@@ -34,6 +35,13 @@ struct VertexFaces {
         hasVFace((quadrants & 1U) != 0) {}
 };
 
+/// L-inf length of the longest of the two edges of a piece of a curve. Edges of level k are at most
+/// 2^k times shorter.
+inline double longestEdge(const CurvePoints& points) {
+  return std::max((points[1] - points[0]).lpNorm<Eigen::Infinity>(),
+                  (points[2] - points[1]).lpNorm<Eigen::Infinity>());
+}
+
 /// A limit for polygons, one kind of stop rule. Depths are numbers of levels below a vertex.
 /// Lengths in voxels. Const and thread-safe.
 class Criterion {
@@ -46,8 +54,11 @@ class Criterion {
   virtual VertexDepth regularDepth(const Patch& patch, int most) const = 0;
   /// Whether an irregular vertex meets the limit at its own level.
   virtual bool fine(const VertexFaces& faces) const = 0;
-  /// Least depth at which a boundary curve meets the limit; at most `most`.
+  /// Least depth at which a boundary curve meets the limit, if the faces beside it do not tell; at
+  /// most `most`.
   virtual int curveDepth(const CurvePoints&, int /*most*/) const { return 0; }
+  /// Least depth at which the curve of a crease by itself meets the limit; at most `most`.
+  virtual int creaseDepth(const CurvePoints& points, int most) const = 0;
 };
 
 }  // namespace vox

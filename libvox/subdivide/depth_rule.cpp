@@ -46,6 +46,13 @@ VertexDepth DepthRule::of(const LevelOneVertex& vertex, const VertexFaces* faces
   return least;
 }
 
+int DepthRule::ofCrease(const CurvePoints& points) const {
+  int least = most_;
+  for (const auto& criterion : criteria_)
+    least = std::min(least, criterion->creaseDepth(points, least));
+  return least;
+}
+
 VertexDepth DepthRule::within(const Patch& patch, VertexDepth own) const {
   VertexDepth least = own;
   for (const auto& criterion : criteria_) {

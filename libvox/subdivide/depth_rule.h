@@ -31,6 +31,9 @@ class DepthRule {
   VertexDepth of(const LevelOneVertex& vertex, const VertexFaces* faces,
                  const BoundaryCurves& curves) const;
 
+  /// Depth of the curve of a crease. It depends on the curve alone, so that both sides have it.
+  int ofCrease(const CurvePoints& points) const;
+
   /// Depth that is enough for a block of an array (VertexArray).
   /// @param own  depth of the block; returned if no limit needs fewer vertices
   VertexDepth within(const Patch& patch, VertexDepth own) const;

@@ -6,6 +6,7 @@
 #include "libvox/subdivide/stop.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vox {
 namespace {
@@ -23,6 +24,10 @@ class DiameterCriterion : public Criterion {
     return leastDepths(most, [&](int u, int v) { return steps.sizeBelow(u, v) <= limit_; });
   }
   bool fine(const VertexFaces& faces) const override { return largestDiameter(faces) <= limit_; }
+  int creaseDepth(const CurvePoints& points, int most) const override {
+    const double edge = longestEdge(points);
+    return leastDepth(most, [&](int k) { return std::ldexp(edge, -k) <= limit_; });
+  }
 
  private:
   double limit_;

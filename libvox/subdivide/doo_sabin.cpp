@@ -234,7 +234,7 @@ SubdivisionLevel baseLevel(PolygonMesh mesh, BoundaryRule rule) {
   requireManifold(level.mesh, level.adjacency);
   const auto& twin = level.adjacency.twin;
   const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
-  if (open && rule == BoundaryRule::kExtend) level.boundary = BoundaryStage::kExtend;
+  if (open && rule != BoundaryRule::kFree) level.boundary = BoundaryStage::kExtend;
   return level;
 }
 

@@ -95,6 +95,9 @@ class FlatnessCriterion : public Criterion {
     const double bend = (points[0] - 2.0 * points[1] + points[2]).norm();
     return leastDepth(most, [&](int k) { return halved(bend, 2 * k) / 8 <= limit_; });
   }
+  int creaseDepth(const CurvePoints& points, int most) const override {
+    return curveDepth(points, most);
+  }
 
  private:
   bool fineBelow(const PatchBends& bends, int u, int v) const {

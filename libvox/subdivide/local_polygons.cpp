@@ -2,6 +2,8 @@
 
 #include "libvox/subdivide/local_polygons.h"
 
+#include "libvox/mesh/chaikin.h"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -35,18 +37,54 @@ Vec3d onCurve(const CurvePoints& curve, std::int64_t j, std::int64_t n) {
   return PatchWeights(j, n)(curve[0], curve[1], curve[2]);
 }
 
-/// Points of a boundary, in its direction or against it.
-SideRow boundaryRow(const CurvePoints& curve, int log2Size, bool forward) {
-  return {log2Size, [curve, log2Size, forward](std::int64_t first, std::span<Vec3d> points) {
-            const std::int64_t n = std::int64_t{1} << log2Size;
-            for (Vec3d& point : points) {
-              point = onCurve(curve, forward ? first : n - 1 - first, n);
-              ++first;
-            }
-          }};
+/// The same points for both directions of a curve, with the same bits.
+Vec3d onEitherCurve(const CurvePoints& curve, std::int64_t j, std::int64_t n) {
+  const auto& [a, b, c] = curve;
+  const bool forward = std::lexicographical_compare(a.begin(), a.end(), c.begin(), c.end());
+  return forward ? onCurve(curve, j, n) : onCurve({c, b, a}, n - 1 - j, n);
 }
 
 }  // namespace
+
+/// The points of a boundary that descend from one point of level 1.
+struct LocalPolygons::BoundaryPoints {
+  CurvePoints curve;
+  int log2Size;
+  bool crease;
+
+  Vec3d at(std::int64_t j) const {
+    const std::int64_t n = std::int64_t{1} << log2Size;
+    return crease ? onEitherCurve(curve, j, n) : onCurve(curve, j, n);
+  }
+  Vec3d first() const { return at(0); }
+  Vec3d last() const { return at((std::int64_t{1} << log2Size) - 1); }
+
+  /// In the direction of the boundary, or against it.
+  SideRow row(bool forward) const {
+    return {log2Size, [points = *this, forward](std::int64_t first, std::span<Vec3d> row) {
+              const std::int64_t n = std::int64_t{1} << points.log2Size;
+              for (Vec3d& point : row) {
+                point = points.at(forward ? first : n - 1 - first);
+                ++first;
+              }
+            }};
+  }
+};
+
+LocalPolygons::BoundaryPoints LocalPolygons::boundaryPoints(const CurvePoints& curve, Index edge,
+                                                            int depthBeside) const {
+  const std::vector<Index>& seam = vertices_.images().base().seam;
+  const bool crease = rule_ != nullptr && !seam.empty() && seam[edge] != kNone;
+  return {curve, crease ? rule_->ofCrease(curve) : depthBeside, crease};
+}
+
+LocalPolygons::BoundaryPoints LocalPolygons::startOfEdge(const Corner& c) const {
+  return boundaryPoints(vertices_.curveAcrossR(c), c.number, depths_[c.number].u);
+}
+
+LocalPolygons::BoundaryPoints LocalPolygons::endOfEdge(const Corner& c) const {
+  return boundaryPoints(vertices_.curveAcrossL(c.next()), c.number, depths_[c.next().number].v);
+}
 
 void LocalPolygons::findDepths(std::span<const Index> faces, const DepthRule& rule,
                                std::span<VertexDepth> depths) {
@@ -226,13 +264,11 @@ void LocalPolygons::emitEdge(const Corner& c, const VertexArray& here, const Ver
 /// Emits the strips to the boundary points of a boundary edge, and the half E-face between them.
 void LocalPolygons::emitBoundaryEdge(const Corner& c, const VertexArray& here,
                                      const VertexArray& next, PolygonPieces& pieces) {
-  const CurvePoints start = vertices_.curveAcrossR(c);
-  const CurvePoints end = vertices_.curveAcrossL(c.next());
-  stitch(sideOfR(here), boundaryRow(start, here.depth().u, true), pieces);
-  stitch(boundaryRow(end, next.depth().v, false), sideOfL(next), pieces);
-  pieces.addPolygon(std::array{next.cornerL(), here.cornerR(),
-                               onCurve(start, here.sizeU() - 1, here.sizeU()),
-                               onCurve(end, 0, next.sizeV())});
+  const BoundaryPoints start = startOfEdge(c);
+  const BoundaryPoints end = endOfEdge(c);
+  stitch(sideOfR(here), start.row(true), pieces);
+  stitch(end.row(false), sideOfL(next), pieces);
+  pieces.addPolygon(std::array{next.cornerL(), here.cornerR(), start.last(), end.first()});
 }
 
 /// Emits the V-face or half V-face of a fan, given its first corner.
@@ -251,11 +287,13 @@ void LocalPolygons::emitVFace(const Corner& c, PolygonPieces& pieces) {
     corner = nextAroundVertex(base.mesh, base.adjacency, corner);
   }
   if (!vFace.closed) {
-    const Vec3d& unknown = vFace.mEnd;
-    const std::int64_t startSize = std::int64_t{1} << depths_[c.number].u;
-    const std::int64_t endSize = std::int64_t{1} << depths_[last].v;
-    row_.push_back(onCurve({unknown, vFace.mEnd, vFace.mStart}, endSize - 1, endSize));
-    row_.push_back(onCurve({vFace.mEnd, vFace.mStart, unknown}, 0, startSize));
+    // The edge that arrives may belong to a face outside of the submesh.
+    const Index edge = previousCorner(base.mesh, base.adjacency, last);
+    const Vec3d before = chaikin(base.mesh.points[base.mesh.faceVertices[edge]],
+                                 base.mesh.points[base.mesh.faceVertices[last]]);
+    row_.push_back(
+        boundaryPoints({before, vFace.mEnd, vFace.mStart}, edge, depths_[last].v).last());
+    row_.push_back(startOfEdge(c).first());
   }
   pieces.addPolygon(row_);
 }

@@ -18,7 +18,8 @@ namespace vox {
 /// k + 1. A corner owns its array, the strip to the next corner, and the strip across its edge at
 /// its vertex. A face owns its F-face, the first corner of an edge the E-face, the first corner of
 /// a fan the V-face. At an extended boundary, the row of boundary points beside a vertex is as long
-/// as the row of the vertex.
+/// as the row of the vertex. Along a crease its length follows from the curve alone, and its points
+/// have the same bits on both sides.
 ///
 /// One object per thread. Source: DESIGN section 10.
 class LocalPolygons {
@@ -55,6 +56,13 @@ class LocalPolygons {
   void emitBoundaryEdge(const Corner& corner, const VertexArray& here, const VertexArray& next,
                         PolygonPieces& pieces);
   void emitVFace(const Corner& corner, PolygonPieces& pieces);
+
+  struct BoundaryPoints;
+  /// @param edge         corner of the boundary edge, in the base mesh
+  /// @param depthBeside  depth of the vertex beside the points
+  BoundaryPoints boundaryPoints(const CurvePoints& curve, Index edge, int depthBeside) const;
+  BoundaryPoints startOfEdge(const Corner& corner) const;
+  BoundaryPoints endOfEdge(const Corner& corner) const;
   void setArray(const Corner& corner, VertexArray& array, bool& whole);
 
   LocalVertices vertices_;
