@@ -439,7 +439,8 @@ TEST_CASE("a conversion reports repairs in one line", "[pipeline]") {
 
 TEST_CASE("the weld tolerance is in world units, whatever the resolution", "[pipeline]") {
   PolygonMesh gaping = test::unwelded(test::cube());
-  for (Index v = 0; v < gaping.pointCount(); ++v) gaping.points[v].z() += 0.001 * (v / 4);
+  for (Index v = 0; v < gaping.pointCount(); ++v)
+    gaping.points[v] += 0.001 * (v / 4) * Vec3d::Ones();
   for (const int dim : {4, 400}) {  // voxels of 1/2 and of 1/200
     ConvertOptions options = maskAt(dim);
     options.weldTolerance = 0.01;

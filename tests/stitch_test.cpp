@@ -16,14 +16,14 @@ using Catch::Contains;
 
 namespace {
 
-struct Sound {
+struct Stitched {
   PolygonMesh mesh;
   SoundReport report;
   std::size_t stitched() const { return report.repair[RepairKind::kStitchedVertex].count; }
 };
 
-Sound soundOf(const PolygonMesh& mesh, double weld = 0) {
-  Sound sound;
+Stitched stitchedOf(const PolygonMesh& mesh, double weld = 0) {
+  Stitched sound;
   RepairOptions options;
   options.weldTolerance = weld;
   sound.mesh = soundMesh(mesh, options, sound.report);
@@ -32,8 +32,8 @@ Sound soundOf(const PolygonMesh& mesh, double weld = 0) {
 
 /// Checks that a damaged copy of a closed mesh becomes a closed mesh of the same topology.
 void checkClosesAs(const PolygonMesh& closed, const PolygonMesh& damaged, double weld) {
-  const Sound sound = soundOf(damaged, weld);
-  const Sound original = soundOf(closed);
+  const Stitched sound = stitchedOf(damaged, weld);
+  const Stitched original = stitchedOf(closed);
   CHECK(sound.report.orient.openComponents == 0);
   CHECK(sound.report.orient.closedComponents == original.report.orient.closedComponents);
   CHECK(test::eulerCharacteristic(sound.mesh) == test::eulerCharacteristic(original.mesh));
@@ -184,7 +184,7 @@ TEST_CASE("a vertex on another face's edge enters the face", "[stitch]") {
                                   {1, 2, 6, 5},
                                   {2, 3, 7, 6},
                                   {3, 0, 4, 7}});
-  const Sound sound = soundOf(box);
+  const Stitched sound = stitchedOf(box);
   CHECK(sound.report.orient.closedComponents == 1);
   CHECK(sound.mesh.faceSize(0) == 5);
   CHECK(sound.mesh.faceSize(1) == 5);
@@ -238,24 +238,24 @@ TEST_CASE("a gap wider than the tolerance stays open, and closed meshes are left
           "[stitch]") {
   std::mt19937 random(8);
   const PolygonMesh split = withSplitEdges(test::dodecahedron(), random, 1e-3);
-  CHECK(soundOf(split, 1e-5).report.orient.openComponents > 0);
-  CHECK(soundOf(split, 3e-3).report.orient.openComponents == 0);
+  CHECK(stitchedOf(split, 1e-5).report.orient.openComponents > 0);
+  CHECK(stitchedOf(split, 3e-3).report.orient.openComponents == 0);
   for (const test::Shape& shape : test::shapes()) {
     CAPTURE(shape.name);
-    CHECK(soundOf(shape.mesh).stitched() == 0);
+    CHECK(stitchedOf(shape.mesh).stitched() == 0);
   }
 }
 
 TEST_CASE("a pipe of slivers whose rims are T-junctions is one closed component", "[stitch]") {
   const PolygonMesh pipe = sliverPipe(3200);
-  const Sound sound = soundOf(pipe);
+  const Stitched sound = stitchedOf(pipe);
   CHECK(sound.report.orient.components == 1);
   CHECK(sound.report.orient.closedComponents == 1);
   CHECK(sound.stitched() == 1600);
   PolygonMesh text = pipe;  // as a file with six decimals has it
   for (Vec3d& p : text.points) p = (p * 1e6).array().round() / 1e6;
-  CHECK(soundOf(text).report.orient.openComponents == 1);
-  CHECK(soundOf(text, 2e-6).report.orient.closedComponents == 1);
+  CHECK(stitchedOf(text).report.orient.openComponents == 1);
+  CHECK(stitchedOf(text, 2e-6).report.orient.closedComponents == 1);
 }
 
 TEST_CASE("two polylines with different breaks on one line close in order", "[stitch]") {
@@ -274,7 +274,7 @@ TEST_CASE("two polylines with different breaks on one line close in order", "[st
   };
   row(7, 1);
   row(11, -1);
-  const Sound sound = soundOf(mesh);
+  const Stitched sound = stitchedOf(mesh);
   CHECK(sound.stitched() == 6 + 10);
   CHECK(sound.report.orient.components == 1);
   CHECK(boundaryLoops(sound.mesh, buildAdjacency(sound.mesh)).size() == 1);
@@ -286,8 +286,8 @@ TEST_CASE("a vertex that joins no edges does not enter a face", "[stitch]") {
   const PolygonMesh mesh =
       test::meshOf({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 0, 0}, {0, -1, 0}, {2, -1, 0}},
                    {{0, 1, 2, 3}, {4, 5, 6}});
-  CHECK(soundOf(mesh).stitched() == 0);
-  CHECK(soundOf(mesh, 1e-3).stitched() == 0);
+  CHECK(stitchedOf(mesh).stitched() == 0);
+  CHECK(stitchedOf(mesh, 1e-3).stitched() == 0);
 }
 
 TEST_CASE("edges that lie on each other in thousands end the search", "[stitch]") {
@@ -299,5 +299,5 @@ TEST_CASE("edges that lie on each other in thousands end the search", "[stitch]"
     fan.points.emplace_back(i + 1, 1, i);
     fan.addFace(std::vector<Index>{0, 2 * i + 1, 2 * i + 2});
   }
-  CHECK(soundOf(fan).stitched() == 0);
+  CHECK(stitchedOf(fan).stitched() == 0);
 }

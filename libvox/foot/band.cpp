@@ -190,7 +190,8 @@ class BandMaker {
   }
 
   /// Whether neighbouring voxels in the leaf are not separated by a surface as their distances say.
-  static bool hasJump(const std::uint32_t* keys, const LeafWords& active, const LeafWords& negative) {
+  static bool hasJump(const std::uint32_t* keys, const LeafWords& active,
+                      const LeafWords& negative) {
     constexpr float kMost = 1.02F;
     constexpr std::uint64_t kNotLastZ = 0x7F7F7F7F7F7F7F7F;
     const auto any = [&](unsigned x, std::uint64_t pairs, unsigned step) {

@@ -279,7 +279,7 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   cell.surface = shape.c;
   cell.guess = shape.guess;
   cell.isCurve = piece_->boundarySides == kAllSides;
-  if (sides != 0 && !cell.isCurve) cell.creaseBias = kCreaseBias;
+  if (options_.creases && sides != 0) cell.creaseBias = kCreaseBias;
   cell.severalStarts = shape.badNormal || shape.sine > kMostSine;
   cell.mostSteps = cell.severalStarts ? 16 : 6;
   // Small cells may be strongly curved: there a small step counts in parameters.

@@ -12,6 +12,7 @@ struct CellOptions {
   bool polynomials = true;   ///< make polynomial cells where they are precise enough
   double tolerance = 0.003;  ///< of the pieces around extraordinary faces (limit_walk.h), voxels
   float newtonStop = 0.15F;  ///< a shorter step of Newton's method is the last one, voxels
+  bool creases = false;      ///< boundary sides are sides of creases (DESIGN section 19)
   bool places = true;        ///< cells need their places; without them there are fewer cells
 };
 

@@ -247,8 +247,9 @@ class Exposure {
       changes = correct(leaves);
     }
     if (!known_.empty())
-      openvdb::tools::signedFloodFillWithValues(band_, backgroundOf(options_.out, voxelSize_),
-                                                -backgroundOf(options_.in, voxelSize_), true, 1, 1);
+      openvdb::tools::signedFloodFillWithValues(
+          band_, backgroundOf(options_.out, options_.voxelSize),
+          -backgroundOf(options_.in, options_.voxelSize), true, 1, 1);
   }
 
  private:
@@ -400,8 +401,8 @@ class Exposure {
       float& value = changed.values[i];
       const bool maybeInside = isSolid(solid_, solidLeaf, origin, i);
       if (!leaf.isValueOn(i)) {
-        value = maybeInside ? -backgroundOf(options_.in, voxelSize_)
-                            : backgroundOf(options_.out, voxelSize_);
+        value = maybeInside ? -backgroundOf(options_.in, options_.voxelSize)
+                            : backgroundOf(options_.out, options_.voxelSize);
         continue;
       }
       const float t = std::abs(value) / voxelSize_;
@@ -427,7 +428,7 @@ class Exposure {
 
   /// @param t  voxels
   void setInside(NewLeaf& leaf, openvdb::Index voxel, float t) const {
-    const float limit = backgroundOf(options_.in, voxelSize_);
+    const float limit = backgroundOf(options_.in, options_.voxelSize);
     leaf.mask.set(voxel, t * voxelSize_ < limit);
     leaf.values[voxel] = -std::min(t * voxelSize_, limit);
   }

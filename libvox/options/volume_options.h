@@ -70,8 +70,8 @@ inline constexpr double kDefaultBand = 3;  ///< voxels
 
 inline constexpr int kWidestClosing = 1000;  ///< voxels
 
-/// Blender's shading shows the stairs of hard densities. Without a target they stay hard: the values
-/// of a grid that programs compare.
+/// Blender's shading shows the stairs of hard densities. Without a target they stay hard: the
+/// values of a grid that programs compare.
 constexpr Edge defaultEdge(const std::optional<Target>& target) {
   return target && *target != Target::kHoudini ? Edge::kSoft : Edge::kHard;
 }

@@ -106,11 +106,15 @@ class Cubes {
   std::unordered_set<Coord> cubes_;
 };
 
+bool hasOpenEdge(const SubdivisionLevel& base) {
+  for (Index c = 0; c < base.mesh.cornerCount(); ++c)
+    if (base.isOpen(c)) return true;
+  return false;
+}
+
 /// True if a surface may become far smaller than its control mesh: then nothing is certain.
 bool shrinks(const PreparedSurface& surface) {
-  const auto& twin = surface.base.adjacency.twin;
-  return surface.base.boundary == BoundaryStage::kPlain &&
-         std::find(twin.begin(), twin.end(), kNone) != twin.end();
+  return surface.base.boundary == BoundaryStage::kPlain && hasOpenEdge(surface.base);
 }
 
 void addAreas(const PolygonMesh& polygons, Measure& measure) {
@@ -138,8 +142,7 @@ Measure measureOf(const PreparedSurface& surface, Cubes& leaves, Cubes& lowers) 
   leaves.add(polygons, measure.area);
   lowers.add(polygons, measure.area);
   const std::vector<Index> faces = numbered(polygons.faceCount());
-  const auto& twin = surface.base.adjacency.twin;
-  const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
+  const bool open = hasOpenEdge(surface.base);
   if (open) measure.sheetArea = measure.area;
   if (!open) measure.volume = std::max(0.0, signedVolume(polygons, faces).volume);
   measure.activeVoxels = activeVoxelsOf(surface.way, measure);

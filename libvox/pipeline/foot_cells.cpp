@@ -77,6 +77,7 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
   // On a surface of a few voxels, errors of the shape are far from voxels and add up there.
   constexpr double kPartOfSize = 1e-3;
   CellOptions cellOptions = options_;
+  cellOptions.creases = !surface.base.seam.empty();
   cellOptions.tolerance =
       std::min(options_.tolerance, kPartOfSize * usedBox(surface.base.mesh).longestSide());
   std::optional<WholeVertices> whole;
