@@ -228,7 +228,18 @@ echo '6 7 # two of the interior' >vertices.txt
 expect 0 '25 vertices' subdivide "$scenes/sheet.toml" -o sheet.obj --levels 0 --force --interpolate boundary --interpolate-vertices vertices.txt
 expect 3 'vertex 0 cannot be interpolated: it is on the boundary' subdivide "$scenes/sheet.toml" -o out.obj --levels 0 --interpolate-vertices first.txt
 expect 0 'active voxels' convert "$scenes/sheet.toml" -o sheet.vdb --dim 32 --interpolate both
-expect 2 'one of extend, free' convert good.obj -o out.vdb --boundary round
+expect 2 'one of extend, free, corners' convert good.obj -o out.vdb --boundary round
+printf '0 1\n1 3 # an edge\n' >edges.txt
+expect 0 'cube: 12 sharp edges, 8 corner vertices, 0 darts' convert "$scenes/cube.obj" -o sharp.vdb --dim 20 --crease 40 -v
+expect 0 '12 sharp edges, 8 corner vertices, 0 darts' info "$scenes/cube.obj" --crease 89
+expect 0 '2 sharp edges, 0 corner vertices, 2 darts' info "$scenes/cube.obj" --crease-edges edges.txt
+expect 0 'no tunnels' check sharp.vdb --mesh "$scenes/cube.obj" --ignore no-density
+expect 0 'sharp.obj: ' subdivide "$scenes/cube.obj" -o sharp.obj --levels 3 --crease 40
+expect 0 'closed, orientable, genus 0' info sharp.obj
+expect 0 'has no smoothing groups' convert "$scenes/cube.obj" -o sharp.vdb --dim 20 --crease groups --force
+expect 2 "degrees from 0 to 180, groups, or both with a comma, not '200'" convert good.obj -o out.vdb --crease 200
+expect 2 'creases need a boundary that the surface reaches' convert good.obj -o out.vdb --crease 30 --boundary free
+expect 3 'first.txt: has 1 numbers, but pairs are wanted' convert good.obj -o out.vdb --crease-edges first.txt
 expect 2 'one of none, interior' convert good.obj -o out.vdb --interpolate all
 expect 2 'free boundary cannot be interpolated' convert good.obj -o out.vdb --boundary free --interpolate both
 echo '1 two' >wrong.txt

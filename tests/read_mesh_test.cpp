@@ -639,3 +639,16 @@ TEST_CASE("no flipped bit or cut of an OM file escapes the checks", "[io][om][er
   }
   SUCCEED();
 }
+
+TEST_CASE("smoothing groups of an OBJ file belong to the faces that follow", "[io]") {
+  const test::TemporaryFolder folder;
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  const auto groupsOf = [&](const std::string& faces) {
+    return readMesh(folder.write("groups.obj", points + faces)).faceGroups;
+  };
+  using Groups = std::vector<std::uint32_t>;
+  CHECK(groupsOf("f 1 2 3\n").empty());
+  CHECK(groupsOf("f 1 2 3\ns 2\nf 1 3 4\ns off\nf 1 2 4\ns on\nf 2 3 4\n") == Groups{0, 2, 0, 1});
+  CHECK(groupsOf("s 7\nf 1 2 3\nf 1 2\nf 1 3 4\n") == Groups{7, 7});
+  CHECK(groupsOf("f 1 2 3\ns 4\n") == Groups{0});
+}

@@ -73,8 +73,11 @@ TEST_CASE("options of volumes are resolved one by one", "[request]") {
 
 TEST_CASE("the vertices to interpolate are one choice", "[request]") {
   Scene scene = sceneOf(1);
-  scene.objects[0].smoothing = {BoundaryRule::kFree, Interpolate::kInterior,
-                                std::vector<Index>{2, 0}, FaceRule::kKeep};
+  SmoothingOptions& ofObject = scene.objects[0].smoothing;
+  ofObject.boundary = BoundaryRule::kFree;
+  ofObject.interpolate = Interpolate::kInterior;
+  ofObject.interpolatedVertices = std::vector<Index>{2, 0};
+  ofObject.faces = FaceRule::kKeep;
   PreparationOptions options;
   CHECK(preparationsOf(scene, options)[0].interpolatedVertices == std::vector<Index>{2, 0});
   // Options that name one part of the choice replace all of it.

@@ -134,7 +134,7 @@ std::string objectText(const ObjectReport& object) {
 std::string creaseText(const ObjectReport& object) {
   std::ostringstream text;
   text << object.name << ": " << object.creases.sharpEdges << " sharp edges, "
-       << object.creases.cornerVertices << " corners, " << object.creases.darts << " darts";
+       << object.creases.cornerVertices << " corner vertices, " << object.creases.darts << " darts";
   return text.str();
 }
 

@@ -4,9 +4,12 @@
 #include "apps/vox/counted.h"
 #include "apps/vox/json.h"
 #include "apps/vox/options.h"
+#include "libvox/core/memory.h"
+#include "libvox/core/progress.h"
 #include "libvox/inspect/summary.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/scene_file.h"
+#include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/request.h"
 #include "libvox/prepare/debris.h"
 #include "libvox/prepare/gaps.h"
@@ -28,6 +31,7 @@ struct InfoArguments {
   std::optional<double> scale;
   std::optional<double> weldTolerance;
   std::string faces;
+  CreaseArguments creases;
   std::optional<ComponentLimit> dropComponents;
 };
 
@@ -162,7 +166,9 @@ void print(const std::string& title, const MeshSummary& mesh) {
 }
 
 /// A mesh as it is, the repairs of preparation, and the mesh after them.
-Json describe(const SceneObject& object, const ObjectPreparation& preparation, bool json) {
+Json describe(const Scene& scene, std::size_t number, const ObjectPreparation& preparation,
+              bool json) {
+  const SceneObject& object = scene.objects[number];
   const MeshSummary input = summarize(object.mesh);
   RepairOptions options;
   options.weldTolerance = preparation.weldTolerance;
@@ -175,6 +181,12 @@ Json describe(const SceneObject& object, const ObjectPreparation& preparation, b
       limit.dropsNothing() ? object.mesh : withoutDebris(object.mesh, limit, options, debris);
   const MeshSummary prepared = summarize(soundMesh(kept, options, report));
   const GapReport gaps = prepared.closed ? GapReport() : measureGaps(kept, options);
+  std::optional<CreaseCounts> creases;
+  if (preparation.mayCrease() && prepared.faces > 0) {
+    Progress unwatched;
+    creases = prepare(scene, object, preparation, MemoryBudget(RunOptions().maxMemory), unwatched)
+                  .creases;
+  }
   if (json) {
     Json all = {{"name", object.name}};
     all["reading"] = lossText(object.reading);
@@ -184,6 +196,10 @@ Json describe(const SceneObject& object, const ObjectPreparation& preparation, b
     all["split"] = toJson(report.repair.faces);
     all["prepared"] = toJson(prepared);
     all["gaps"] = toJson(gaps);
+    if (creases)
+      all["creases"] = {{"sharp_edges", creases->sharpEdges},
+                        {"corner_vertices", creases->cornerVertices},
+                        {"darts", creases->darts}};
     return all;
   }
   print("mesh " + object.name, input);
@@ -199,6 +215,9 @@ Json describe(const SceneObject& object, const ObjectPreparation& preparation, b
     std::cout << "  after repair: nothing is left\n";
   else if (!done.empty() || !split.empty() || !dropped.empty())
     print(split.empty() ? "after repair" : "after repair and splitting", prepared);
+  if (creases)
+    std::cout << "    creases           " << creases->sharpEdges << " sharp edges, "
+              << creases->cornerVertices << " corner vertices, " << creases->darts << " darts\n";
   if (gaps.count > 0) std::cout << "    gaps              " << summary(gaps) << '\n';
   return {};
 }
@@ -231,10 +250,12 @@ Json describe(const std::string& file, const InfoArguments& options) {
   PreparationOptions preparation;
   preparation.weldTolerance = options.weldTolerance;
   preparation.smoothing.faces = parseFaces(options.faces);
+  parseCreases(options.creases, preparation.smoothing);
+  requirePreparable(scene, preparation);
   preparation.dropComponents = options.dropComponents;
   const std::vector<ObjectPreparation> prepared = preparationsOf(scene, preparation);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    all["meshes"].push_back(describe(scene.objects[i], prepared[i], options.json));
+    all["meshes"].push_back(describe(scene, i, prepared[i], options.json));
   return all;
 }
 
@@ -253,6 +274,7 @@ Action addInfo(CLI::App& app) {
   command.add("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)").required();
   command.addFlag("--json", options->json, "Print JSON");
   addScaleOption(command, options->scale);
+  addCreaseOptions(command, options->creases);
   addFacesOption(command, options->faces);
   addWeldOption(command, options->weldTolerance);
   addDropOption(command, options->dropComponents);

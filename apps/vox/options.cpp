@@ -105,6 +105,28 @@ void addResolutionOptions(const Command& command, ResolutionOptions& resolution)
       .group("Resolution");
 }
 
+void addCreaseOptions(const Command& command, CreaseArguments& arguments) {
+  command
+      .add("--crease", arguments.rule,
+           "Edges that stay sharp: those whose faces turn by more than DEG degrees, those between "
+           "the smoothing groups of an OBJ file (groups), or both (40,groups) (default: the "
+           "scene's, or none)")
+      .type("DEG|groups")
+      .group("Smoothing");
+  command
+      .add("--crease-edges", arguments.edgeFile,
+           "Text file of further sharp edges, each as two numbers of vertices, counted from 0, "
+           "separated by blanks; # starts a comment")
+      .type("FILE")
+      .group("Smoothing");
+  command
+      .add("--corner-vertices", arguments.cornerFile,
+           "Text file with the numbers of vertices that the surface passes through in a sharp "
+           "corner, counted from 0")
+      .type("FILE")
+      .group("Smoothing");
+}
+
 void addSmoothingOptions(const Command& command, SmoothingArguments& arguments) {
   command
       .add("--boundary", arguments.boundary,
@@ -127,25 +149,7 @@ void addSmoothingOptions(const Command& command, SmoothingArguments& arguments) 
            "comment")
       .type("FILE")
       .group("Smoothing");
-  command
-      .add("--crease", arguments.crease,
-           "Edges that stay sharp: those whose faces turn by more than DEG degrees, those between "
-           "the smoothing groups of an OBJ file (groups), or both (40,groups) (default: the "
-           "scene's, or none)")
-      .type("DEG|groups")
-      .group("Smoothing");
-  command
-      .add("--crease-edges", arguments.creaseFile,
-           "Text file of further sharp edges, each as two numbers of vertices, counted from 0, "
-           "separated by blanks; # starts a comment")
-      .type("FILE")
-      .group("Smoothing");
-  command
-      .add("--corner-vertices", arguments.cornerFile,
-           "Text file with the numbers of vertices that the surface passes through in a sharp "
-           "corner, counted from 0")
-      .type("FILE")
-      .group("Smoothing");
+  addCreaseOptions(command, arguments.creases);
   addFacesOption(command, arguments.faces);
 }
 
@@ -163,6 +167,17 @@ std::optional<FaceRule> parseFaces(const std::string& faces) {
   return parseNamed("--faces", kFaceRuleNames, faces);
 }
 
+void parseCreases(const CreaseArguments& arguments, SmoothingOptions& smoothing) {
+  if (!arguments.rule.empty()) {
+    smoothing.crease = creaseRuleNamed(arguments.rule);
+    if (!smoothing.crease)
+      throw UsageError("--crease must be " + std::string(kAllCreaseRuleNames) + ", not '" +
+                       arguments.rule + "'");
+  }
+  if (!arguments.edgeFile.empty()) smoothing.creaseEdges = readIndexPairs(arguments.edgeFile);
+  if (!arguments.cornerFile.empty()) smoothing.cornerVertices = readIndices(arguments.cornerFile);
+}
+
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   SmoothingOptions smoothing;
   smoothing.boundary = parseNamed("--boundary", kBoundaryRuleNames, arguments.boundary);
@@ -170,14 +185,7 @@ SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   smoothing.faces = parseFaces(arguments.faces);
   if (!arguments.vertexFile.empty())
     smoothing.interpolatedVertices = readIndices(arguments.vertexFile);
-  if (!arguments.crease.empty()) {
-    smoothing.crease = creaseRuleNamed(arguments.crease);
-    if (!smoothing.crease)
-      throw UsageError("--crease must be " + std::string(kAllCreaseRuleNames) + ", not '" +
-                       arguments.crease + "'");
-  }
-  if (!arguments.creaseFile.empty()) smoothing.creaseEdges = readIndexPairs(arguments.creaseFile);
-  if (!arguments.cornerFile.empty()) smoothing.cornerVertices = readIndices(arguments.cornerFile);
+  parseCreases(arguments.creases, smoothing);
   return smoothing;
 }
 

@@ -29,15 +29,25 @@ struct ResolutionOptions {
 };
 void addResolutionOptions(const Command& command, ResolutionOptions& resolution);
 
+/// --crease, --crease-edges and --corner-vertices, as typed.
+struct CreaseArguments {
+  std::string rule;
+  std::string edgeFile;
+  std::string cornerFile;
+};
+void addCreaseOptions(const Command& command, CreaseArguments& arguments);
+
+/// Sets what they give; reads the files.
+/// @throws UsageError, InputError
+void parseCreases(const CreaseArguments& arguments, SmoothingOptions& smoothing);
+
 /// --boundary, --interpolate, --faces, --crease and the files of vertices and edges, as typed.
 struct SmoothingArguments {
   std::string boundary;
   std::string faces;
   std::string interpolate;
   std::string vertexFile;
-  std::string crease;
-  std::string creaseFile;
-  std::string cornerFile;
+  CreaseArguments creases;
 };
 void addSmoothingOptions(const Command& command, SmoothingArguments& arguments);
 
