@@ -150,7 +150,8 @@ TEST_CASE("errors in a scene are named with line and column", "[scene][error]") 
   checkRefused("colour = 1\n", ":1:1:", "unknown key 'colour'");
   checkRefused(object + "smooth = true\n", ":4:1:", "unknown key 'smooth' in [[object]]");
   checkRefused(object + "transform = { move = [0, 0, 0] }", ":4:15:", "unknown key 'move'");
-  checkRefused(object + "boundary = 'round'\n", ":4:12:", "one of extend, free, corners, not 'round'");
+  checkRefused(object + "boundary = 'round'\n",
+               ":4:12:", "one of extend, free, corners, not 'round'");
   checkRefused(object + "interpolate = 'all'\n", ":4:15:", "none, interior, boundary, both");
   checkRefused(object + "interpolate = 1\n", ":4:15:", "must be a string");
   checkRefused(object + "interpolate_vertices = [3]\n", ":4:25:", "between 0 and 2");

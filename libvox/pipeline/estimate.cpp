@@ -352,8 +352,10 @@ int levelsOf(const PreparedSurface& surface, Progress& progress) {
     for (const Index v : mesh.face(f)) points.push_back(mesh.points[v]);
     largest = std::max(largest, diameter(points));
   }
-  // A face halves with each step.
-  return std::max(1, static_cast<int>(std::ceil(std::log2(largest / kVertexConversionSpan))));
+  // A face halves with each step. Some vertices beside a boundary take two steps more.
+  const int more = surface.base.boundary == BoundaryStage::kExtend ? 2 : 0;
+  return std::max(1,
+                  more + static_cast<int>(std::ceil(std::log2(largest / kVertexConversionSpan))));
 }
 
 std::string refusalOf(const Estimate& estimate, double longestSide, const MemoryBudget& budget) {
