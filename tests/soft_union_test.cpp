@@ -196,6 +196,6 @@ TEST_CASE("a sheet through a soft body adds nothing inside, and itself outside",
   openvdb::CoordBBox box = both->evalActiveVoxelBoundingBox();
   for (auto at = box.begin(); at; ++at) {
     const float expected = std::max(alone->tree().getValue(*at), sheets->tree().getValue(*at));
-    REQUIRE(both->tree().getValue(*at) == Approx(expected).margin(1e-5));
+    REQUIRE(both->tree().getValue(*at) == Approx(expected).margin(1e-3));
   }
 }

@@ -144,6 +144,7 @@ TEST_CASE("a voxel is opaque in Blender, whatever the unit of length", "[solid]"
   const auto valueFor = [](double voxelSize, Target target) {
     ConvertOptions options = solidAt(voxelSize);
     options.volume.target = target;
+    options.volume.edge = Edge::kHard;
     const Scene scene = sceneOf({test::scaled(test::cube(), 20 * voxelSize)});
     return densityOf(convert(scene, options)).cbeginValueOn().getValue();
   };
