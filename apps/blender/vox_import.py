@@ -6,6 +6,7 @@
 Or open this file in Blender's Text Editor and run it: File > Import then has "Voxel model (.vdb)".
 """
 
+import os
 import struct
 import sys
 import threading
@@ -41,7 +42,7 @@ def metadata_of(path):
     """
     with open(path, "rb") as file:
         if file.read(21 + 36)[:4] != b" BDV":
-            return {}
+            raise RuntimeError(f"{path} is no OpenVDB file; vox convert makes one of a mesh")
 
         def sized():
             return file.read(struct.unpack("<I", file.read(4))[0])
@@ -54,8 +55,8 @@ def metadata_of(path):
     return metadata
 
 
-def add_material(volume):
-    """A material of the grids that are there.
+def add_material(volume, metadata):
+    """A material of the grids that are there; `metadata` is that of the file.
 
     Blender mixes the values of neighbours. Around a soft density, the grid color goes on for a voxel: what is
     mixed are colours. Around a hard one, color is 0, and so is density: then color / (density / gain) is the
@@ -64,9 +65,8 @@ def add_material(volume):
     """
     grids = grids_of(volume)
     if "density" not in grids:
-        raise RuntimeError(f"{volume.data.filepath} has no grid density; add it to --grids")
+        raise RuntimeError(f"{volume.data.filepath} has no grid density; add it to --grids of vox convert")
     voxel = max(grids["density"].matrix_object.to_scale())
-    metadata = metadata_of(bpy.path.abspath(volume.data.filepath))
     (gain,) = struct.unpack("<f", metadata.get("vox_gain", struct.pack("<f", 1)))
     is_soft = metadata.get("vox_edge") == b"soft"
     material = bpy.data.materials.new(volume.name)
@@ -134,10 +134,16 @@ def add_material(volume):
 
 
 def import_vdb(path):
-    """The file as a volume object with a material."""
+    """The file as a volume object with a material.
+
+    Errors are a RuntimeError of one line.
+    """
+    if not os.path.isfile(path):
+        raise RuntimeError(f"{path}: no such file; check the path")
+    metadata = metadata_of(path)
     bpy.ops.object.volume_import(filepath=path, files=[])
     volume = bpy.context.object
-    add_material(volume)
+    add_material(volume, metadata)
     # Filtered light bounces within a dense volume; none would make it dark.
     bpy.context.scene.cycles.volume_bounces = max(4, bpy.context.scene.cycles.volume_bounces)
     bpy.context.scene.render.engine = "CYCLES"
@@ -191,7 +197,11 @@ class ImportVoxelModel(bpy.types.Operator):
     filter_glob: bpy.props.StringProperty(default="*.vdb", options={"HIDDEN"})
 
     def execute(self, context):
-        frame(import_vdb(self.filepath))
+        try:
+            frame(import_vdb(self.filepath))
+        except RuntimeError as wrong:
+            self.report({"ERROR"}, str(wrong))
+            return {"CANCELLED"}
         return {"FINISHED"}
 
     def invoke(self, context, event):
@@ -242,4 +252,9 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    main(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
+    try:
+        main(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
+    except RuntimeError as wrong:
+        print("vox_import: error:", str(wrong).removeprefix("Error: ").strip(), file=sys.stderr)
+        if bpy.app.background:
+            sys.exit(1)
