@@ -365,7 +365,7 @@ printf '[convert]\ntolerance = 0.2\n[[object]]\n%s\n' "$cube" >tolerance.toml
 for arguments in 'level.toml --tolerance 0.3' tolerance.toml 'tolerance.toml --tolerance 0.3' 'tolerance.toml --dry-run'; do
   # shellcheck disable=SC2086
   expect 0 '' convert $arguments -o level.vdb --dim 32 --force
-  [ "$(grep -c 'warning: tolerance has no effect any more: distances are exact' stderr)" = 1 ] ||
+  [ "$(grep -c 'warning: the tolerance has no effect any more; leave it out' stderr)" = 1 ] ||
     fail "$arguments: $(cat stderr)"
 done
 expect 2 'the tolerance must lie' convert good.obj -o out.vdb --tolerance 0 --grids surface
@@ -408,7 +408,7 @@ expect 3 'nothing.obj: nothing is left after repair' convert nothing.obj -o out.
 
 # Strict: no repair at all. Both commands, the scene, and the command line over the scene.
 printf '[convert]\nstrict = true\n[[object]]\nname = "two"\nmesh = "winding.obj"\n' >strict.toml
-strict='winding.obj: needs repair, which strict forbids: dropped face 1, which repeats face 0'
+strict='winding.obj: needs repair, which --strict forbids: dropped face 1, which repeats face 0'
 expect 3 "$strict" convert winding.obj -o out.vdb --dim 8 --strict
 expect 3 "$strict" subdivide winding.obj -o out.obj --levels 0 --strict
 expect 3 'strict.toml: needs repair, .*face 1' convert strict.toml -o out.vdb --dim 8
@@ -620,7 +620,7 @@ grep -q 'no-inside' stdout && fail "check --ignore of a warning: $(cat stdout)"
 # Odd files are read, strict refuses them with the line.
 sed 's/$/#x/' "$scenes/cube.obj" | sed 's/^#x$//' >hash.obj
 expect 0 'active voxels' convert hash.obj -o hash.vdb --dim 8
-expect 3 'hash.obj:[0-9]+: comment without a blank before its #, which strict forbids' convert hash.obj -o out.vdb --dim 8 --strict
+expect 3 'hash.obj:[0-9]+: comment without a blank before its #, which --strict forbids' convert hash.obj -o out.vdb --dim 8 --strict
 { cat "$scenes/cube.obj"; echo 'f 1 2'; } >digons.obj
 "$vox" convert digons.obj -o digons.vdb --dim 8 2>stderr || fail "digons: $(cat stderr)"
 grep -q 'warning: digons: reading its file dropped 1 face of fewer than 3 corners (on line' stderr || fail "digons: $(cat stderr)"

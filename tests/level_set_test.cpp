@@ -344,7 +344,7 @@ TEST_CASE("a tolerance has no effect, and a warning says so once", "[level-set]"
   CHECK(warningsOf(scene, options).empty());
   options.volume.tolerance = 0.3;
   const std::vector<std::string> warning = {
-      "tolerance has no effect any more: distances are exact"};
+      "the tolerance has no effect any more; leave it out"};
   CHECK(warningsOf(scene, options) == warning);
   scene.volume.tolerance = 0.2;
   CHECK(warningsOf(scene, options) == warning);

@@ -528,7 +528,7 @@ TEST_CASE("conversion warns of what was lost, and strict refuses every oddity wi
             "a: reading its file ignored 4 bytes after the last face (the first on line 17)"});
   CHECK_THROWS_AS(convertFile("OFF\n" + cube + "\nrest", true), InputError);
   CHECK_THROWS_WITH(convertFile("OFF\n" + cube + "\nrest", true),
-                    Contains("a.off:17: byte after the last face, which strict forbids"));
+                    Contains("a.off:17: byte after the last face, which --strict forbids"));
 }
 
 TEST_CASE("the grid of colours of an input without colours gives one warning",

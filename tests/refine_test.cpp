@@ -217,7 +217,7 @@ TEST_CASE("a strict run names the first thing that a mesh needs", "[pipeline][er
     scene.files = {"two.toml"};
     CHECK_THROWS_WITH(
         refine(scene, 0, strict, {}),
-        Contains("two.toml: object 2: needs repair, which strict forbids: " + message));
+        Contains("two.toml: object 2: needs repair, which --strict forbids: " + message));
     CHECK_NOTHROW(refine(scene, 0, {}, {}));
     scene.strict = true;
     CHECK_THROWS_AS(refine(scene, 0, {}, {}), MeshError);

@@ -9,6 +9,31 @@
 #include <cstdint>
 
 namespace vox::app {
+namespace {
+
+/// Refuses what is no whole number of a range. Help texts show the range as CLI11 describes it.
+template <class Number>
+CLI::Validator wholeNumber(Number least, Number most) {
+  CLI::Validator check = CLI::Range(least, most);
+  return check.operation([least, most](std::string& text) {
+    Number value = 0;
+    const bool isNumber = CLI::detail::lexical_cast(text, value);
+    if (isNumber && value >= least && value <= most) return std::string();
+    return "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
+           ", not " + text;
+  });
+}
+
+CLI::Validator anyNumber() {
+  return CLI::Validator(
+      [](std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) ? "" : "must be a number, not " + text;
+      },
+      "");
+}
+
+}  // namespace
 
 Option Option::type(const std::string& name) const {
   option_->type_name(name);
@@ -26,12 +51,12 @@ Option Option::required() const {
 }
 
 Option Option::range(int least, int most) const {
-  option_->check(CLI::Range(least, most));
+  option_->check(wholeNumber(least, most));
   return *this;
 }
 
 Option Option::range(Index least, Index most) const {
-  option_->check(CLI::Range(least, most));
+  option_->check(wholeNumber(least, most));
   return *this;
 }
 
@@ -74,7 +99,7 @@ Option Command::add(const char* names, Index& value, const std::string& help) co
 }
 
 Option Command::add(const char* names, double& value, const std::string& help) const {
-  return Option(command_->add_option(names, value, help));
+  return Option(command_->add_option(names, value, help)->check(anyNumber()));
 }
 
 Option Command::add(const char* names, std::optional<int>& value, const std::string& help) const {
@@ -84,8 +109,9 @@ Option Command::add(const char* names, std::optional<int>& value, const std::str
 
 Option Command::add(const char* names, std::optional<double>& value,
                     const std::string& help) const {
-  return Option(command_->add_option_function<double>(
-      names, [&value](double number) { value = number; }, help));
+  CLI::Option* const option = command_->add_option_function<double>(
+      names, [&value](double number) { value = number; }, help);
+  return Option(option->check(anyNumber()));
 }
 
 Option Command::add(const char* names, const SetText& set, const std::string& help) const {

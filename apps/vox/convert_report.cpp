@@ -2,6 +2,7 @@
 
 #include "apps/vox/convert_report.h"
 
+#include "apps/vox/counted.h"
 #include "apps/vox/json.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/version.h"
@@ -118,8 +119,8 @@ std::string levelsText(const ObjectReport& object) {
 
 std::string objectText(const ObjectReport& object) {
   std::ostringstream text;
-  text << object.name << ": " << object.inputFaces << " faces, " << object.submeshes
-       << " submeshes, ";
+  text << object.name << ": " << counted(object.inputFaces, "face") << ", "
+       << counted(object.submeshes, "submesh", "submeshes") << ", ";
   if (object.byPolygons)
     text << object.polygons.triangles << " triangles after " << object.levels << " levels (until "
          << stopRuleName(object.until) << "), ";
@@ -133,8 +134,9 @@ std::string objectText(const ObjectReport& object) {
 
 std::string creaseText(const ObjectReport& object) {
   std::ostringstream text;
-  text << object.name << ": " << object.creases.sharpEdges << " sharp edges, "
-       << object.creases.cornerVertices << " corner vertices, " << object.creases.darts << " darts";
+  text << object.name << ": " << counted(object.creases.sharpEdges, "sharp edge") << ", "
+       << counted(object.creases.cornerVertices, "corner vertex", "corner vertices") << ", "
+       << counted(object.creases.darts, "dart");
   return text.str();
 }
 

@@ -16,6 +16,7 @@
 #include "libvox/prepare/sound.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <numeric>
@@ -169,7 +170,7 @@ void print(const std::string& title, const MeshSummary& mesh) {
 Json describe(const Scene& scene, std::size_t number, const ObjectPreparation& preparation,
               bool json) {
   const SceneObject& object = scene.objects[number];
-  const MeshSummary input = summarize(object.mesh);
+  MeshSummary input = summarize(object.mesh);
   RepairOptions options;
   options.weldTolerance = preparation.weldTolerance;
   options.faces = preparation.faces;
@@ -187,6 +188,11 @@ Json describe(const Scene& scene, std::size_t number, const ObjectPreparation& p
     creases = prepare(scene, object, preparation, MemoryBudget(RunOptions().maxMemory), unwatched)
                   .creases;
   }
+  // Faces with holes run along a bridge twice, so they repeat corners. That is no defect.
+  const auto repeatsCorner = [](const Defect& d) { return d.kind == DefectKind::kRepeatedCorner; };
+  const auto repeating = std::count_if(input.defects.begin(), input.defects.end(), repeatsCorner);
+  if (static_cast<std::uint64_t>(repeating) == report.repair.faces.keyholes.faces)
+    std::erase_if(input.defects, repeatsCorner);
   if (json) {
     Json all = {{"name", object.name}};
     all["reading"] = lossText(object.reading);
@@ -216,8 +222,9 @@ Json describe(const Scene& scene, std::size_t number, const ObjectPreparation& p
   else if (!done.empty() || !split.empty() || !dropped.empty())
     print(split.empty() ? "after repair" : "after repair and splitting", prepared);
   if (creases)
-    std::cout << "    creases           " << creases->sharpEdges << " sharp edges, "
-              << creases->cornerVertices << " corner vertices, " << creases->darts << " darts\n";
+    std::cout << "    creases           " << counted(creases->sharpEdges, "sharp edge") << ", "
+              << counted(creases->cornerVertices, "corner vertex", "corner vertices") << ", "
+              << counted(creases->darts, "dart") << '\n';
   if (gaps.count > 0) std::cout << "    gaps              " << summary(gaps) << '\n';
   return {};
 }
@@ -233,7 +240,8 @@ void print(const GridSummary& grid) {
   std::cout << "    voxel size        " << grid.voxelSize[0] << ' ' << grid.voxelSize[1] << ' '
             << grid.voxelSize[2] << '\n';
   for (const auto& [key, value] : grid.metadata)
-    if (key.starts_with("vox_")) std::cout << "    " << key << "  " << value << '\n';
+    if (key.starts_with("vox_"))
+      std::cout << "    " << std::left << std::setw(18) << key << value << '\n';
 }
 
 Json describe(const std::string& file, const InfoArguments& options) {

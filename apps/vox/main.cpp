@@ -112,7 +112,13 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     // A mistyped option is the likelier cause of one that is missing.
     const bool extras = !app.remaining(/*recurse=*/true).empty();
-    return fail(extras ? explainExtras(app) : error.what(), kUsage);
+    if (extras) return fail(explainExtras(app), kUsage);
+    if (app.get_subcommands().empty())
+      return fail("a command is required, such as vox convert (see vox --help)", kUsage);
+    const std::string message = error.what();
+    if (message.ends_with(" missing"))  // CLI11's "--scale: 1 required S missing"
+      return fail(message.substr(0, message.find(':')) + " needs a value", kUsage);
+    return fail(message, kUsage);
   } catch (const std::logic_error&) {  // what CLI11 lets through for --force=maybe
     const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
     return fail("a switch takes no value but true or false: " + switchWithValue(app, arguments),

@@ -122,7 +122,7 @@ void addCreaseOptions(const Command& command, CreaseArguments& arguments) {
   command
       .add("--corner-vertices", arguments.cornerFile,
            "Text file with the numbers of vertices that the surface passes through in a sharp "
-           "corner, counted from 0")
+           "corner, counted from 0, separated by blanks; # starts a comment")
       .type("FILE")
       .group("Smoothing");
 }
@@ -242,10 +242,10 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .group("Output");
   command
       .add("--edge", arguments.edge,
-           "How the grid density ends at the surface: with one value at all its voxels (hard), or "
-           "with the part of each voxel that is inside, or without --fill solid within half a "
-           "voxel of the surface (soft) (default: the scene's, or soft if --target is blender, "
-           "else hard)")
+           "How the grid density ends at the surface: all its voxels have one value (hard), or the "
+           "value is multiplied by the part of the voxel that is inside, without --fill solid by "
+           "the part within half a voxel of the surface (soft) (default: the scene's, or soft if "
+           "Blender is named as the target, else hard)")
       .type("hard|soft")
       .group("Output");
   command
@@ -264,10 +264,9 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .group("Output");
   command
       .add("--close", arguments.close,
-           "Close openings of the voxel surface that are narrower than N voxels before inside and "
-           "outside are told apart, in --fill solid and the grid surface, if they lead to a space "
-           "at least N voxels wide. Closed meshes stay as they are, and the voxels of the surface, "
-           "too (default: the scene's, or 0: none)")
+           "For --fill solid and the grid surface: close openings of the voxel surface that are "
+           "narrower than N voxels and lead to a space at least N voxels wide. Closed meshes and "
+           "the grid mask do not change (default: the scene's, or 0: none)")
       .range(0, kWidestClosing)
       .type("N")
       .group("Output");
@@ -299,9 +298,10 @@ void addFileOptions(const Command& command, VolumeArguments& arguments) {
       .group("Output");
   command
       .add("--target", arguments.target,
-           "Program that will read the file. It decides the names of grids and which way is "
-           "up; blender-3.4 also moves all grids by half a voxel, because that version "
-           "draws them so far off (default: the scene's, or blender)")
+           "Program that will read the file. It decides the names of grids, which way is up, and "
+           "the default of --edge; blender-3.4 also moves all grids by half a voxel, because that "
+           "version draws them so far off (default: the scene's, or none: names of grids as for "
+           "Blender)")
       .type("blender|blender-3.4|houdini")
       .group("Output");
   command
@@ -331,10 +331,10 @@ VolumeOptions parseVolume(const VolumeArguments& arguments) {
 
 void addWeldOption(const Command& command, std::optional<double>& tolerance) {
   command
-      .add("--weld", tolerance,
-           "Join vertices up to this far apart, in world units, and put vertices onto edges of "
-           "other "
-           "faces as near as that (default: the scene's, or 0: only what coincides)")
+      .add(
+          "--weld", tolerance,
+          "Join vertices up to this far apart, in world units, and join vertices to edges of other "
+          "faces that are as near (default: the scene's, or 0: only what coincides)")
       .type("TOL")
       .group("Repair");
 }
@@ -362,8 +362,8 @@ void addDropOption(const Command& command, std::optional<ComponentLimit>& limit)
                   text + "'");
           },
           "Leave out debris: components of fewer than N faces, or with a box whose diagonal is "
-          "shorter than X world units; --dim counts along what remains (default: the scene's, or "
-          "none)")
+          "shorter than X world units (below=9,size=0.1: both kinds); --dim counts along what "
+          "remains (default: the scene's, or none)")
       .type("below=N|size=X")
       .group("Repair");
 }

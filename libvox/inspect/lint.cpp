@@ -346,7 +346,7 @@ std::vector<LintFinding> lintVdb(const std::filesystem::path& file) {
   if (!names.contains("density"))
     findings.add("no-density",
                  "there is no grid named density: Blender will show nothing until a material asks "
-                 "for another");
+                 "for another; add density to --grids, or pass --ignore no-density");
   const auto creator = (*vdb.metadata)["creator"];
   if (creator && creator->str().starts_with("Houdini"))
     findings.add("creator", "the creator is Houdini: Blender will turn the object to Z up");

@@ -10,18 +10,30 @@
 
 #include <openvdb/io/Stream.h>
 
+#include <array>
 #include <fstream>
 #include <map>
 #include <new>
+#include <string_view>
 
 namespace vox {
 namespace {
+
+/// @throws InputError  the file does not begin as an OpenVDB file does
+void requireVdb(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file.string() + ": cannot be opened; check its permissions");
+  constexpr std::string_view kMagic(" BDV\0\0\0\0", 8);
+  std::array<char, kMagic.size()> begin{};
+  stream.read(begin.data(), begin.size());
+  if (std::string_view(begin.data(), begin.size()) != kMagic)
+    throw InputError(file.string() + ": is not an OpenVDB file");
+}
 
 /// Whether libvox wrote the file and the content still has the hash that the file states.
 /// @throws InputError  libvox wrote it, but the hash is wrong
 bool isTrusted(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file.string() + ": cannot be opened; check its permissions");
   const VdbContent content = vdbContent(stream);
   if (content == VdbContent::kDamaged)
     throw InputError(file.string() + ": is damaged: its content does not match its hash");
@@ -51,6 +63,7 @@ openvdb::MetaMap readWhole(const std::filesystem::path& file, const Visit& visit
 
 openvdb::MetaMap read(const std::filesystem::path& file, const Visit& visit) {
   requireInputFile(file);
+  requireVdb(file);
   openvdb::initialize();
   openvdb::logging::setLevel(openvdb::logging::Level::Fatal);
   constexpr std::uintmax_t kMostWhole = std::uintmax_t{256} << 20U;

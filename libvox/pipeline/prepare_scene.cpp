@@ -106,7 +106,7 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
     budget.take(bytesOf(object.mesh), "the input", "raise --max-memory");
 
   if (request.volume.tolerance)
-    report.warnings.push_back("tolerance has no effect any more: distances are exact");
+    report.warnings.push_back("the tolerance has no effect any more; leave it out");
   warnOfColors(scene, request, report);
   std::vector<ObjectPreparation> preparations;
   for (const ObjectRequest& object : request.objects) preparations.push_back(object.preparation);

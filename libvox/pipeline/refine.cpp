@@ -50,7 +50,7 @@ struct ElementOrigin {
 /// Warns of what reading the file of an object has lost. Strict: refuses a file that is odd at all.
 void noteReading(const SceneObject& object, bool strict, std::vector<std::string>& warnings) {
   const std::string odd = firstOddity(object.reading);
-  if (strict && !odd.empty()) throw InputError(odd + ", which strict forbids");
+  if (strict && !odd.empty()) throw InputError(odd + ", which --strict forbids");
   const std::string lost = lossText(object.reading);
   if (!lost.empty()) warnings.push_back(object.name + ": reading its file " + lost);
 }
@@ -71,10 +71,13 @@ PolygonMesh keptMeshOf(const SceneObject& object, const ObjectPreparation& prepa
   PolygonMesh kept =
       withoutDebris(object.mesh, preparation.dropComponents, repairOptionsOf(preparation), report);
   if (kept.faceCount() == 0)
-    throw MeshError("all " + std::to_string(report.components) +
-                    " components would be dropped; the largest has " +
-                    std::to_string(report.mostFaces) + " faces and a box whose diagonal is " +
-                    exactNumber(report.largestDiagonal));
+    throw MeshError(
+        (report.components == 1 ? std::string("the only component would be dropped; it has ")
+                                : "all " + std::to_string(report.components) +
+                                      " components would be dropped; the largest has ") +
+        std::to_string(report.mostFaces) + (report.mostFaces == 1 ? " face" : " faces") +
+        " and a box whose diagonal is " + exactNumber(report.largestDiagonal) +
+        "; lower the limits of --drop-components");
   return kept;
 }
 
@@ -88,9 +91,11 @@ PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& prep
   PolygonMesh mesh = soundMesh(std::move(kept), repairOptionsOf(preparation), report);
   std::string done = summary(report);
   if (preparation.strict && !done.empty())
-    throw MeshError("needs repair, which strict forbids: " + firstAction(report) +
+    throw MeshError("needs repair, which --strict forbids: " + firstAction(report) +
                     "; in all: " + done);
-  if (mesh.faceCount() == 0) throw MeshError("nothing is left after repair: " + done);
+  if (mesh.faceCount() == 0)
+    throw MeshError("nothing is left after repair: " + done +
+                    (preparation.weldTolerance > 0 ? "; use a smaller --weld" : ""));
   if (debris.dropped > 0) warnings.push_back(object.name + ": " + summary(debris));
   const std::string split = summary(report.repair.faces);
   if (!split.empty()) done += (done.empty() ? "" : ", ") + split;
@@ -125,10 +130,11 @@ SharpFeatures sharpFeaturesOf(const SceneObject& object, const ObjectPreparation
       markByPoints(mesh, adjacency, input, preparation.creaseEdges, sharp);
   if (!missing.empty()) {
     const PointPair& first = preparation.creaseEdges[missing[0]];
-    warnings.push_back(object.name + ": " + std::to_string(missing.size()) + " of " +
-                       std::to_string(preparation.creaseEdges.size()) +
-                       " sharp edges are no edges of the mesh; the first is " +
-                       std::to_string(first[0]) + " " + std::to_string(first[1]));
+    warnings.push_back(object.name + ": the mesh has no edge at " + std::to_string(missing.size()) +
+                       " of the " + std::to_string(preparation.creaseEdges.size()) +
+                       " pairs of vertices of --crease-edges; the first is " +
+                       std::to_string(first[0]) + " " + std::to_string(first[1]) +
+                       ", counted from 0");
   }
   markVertices(input, preparation.cornerVertices, sharp);
   if (preparation.boundary == BoundaryRule::kCorners) markBoundaryCorners(mesh, adjacency, sharp);

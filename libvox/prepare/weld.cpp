@@ -106,7 +106,7 @@ std::vector<Index> weldNear(const std::vector<Vec3d>& points, const std::vector<
 std::vector<Index> weldTargets(const std::vector<Vec3d>& points, const std::vector<bool>& used,
                                double tolerance) {
   if (!std::isfinite(tolerance) || tolerance < 0)
-    throw UsageError("the weld tolerance must be a finite distance, 0 or more");
+    throw UsageError("the weld tolerance (--weld) must be a finite distance, 0 or more");
   return tolerance == 0 ? weldEqual(points, used) : weldNear(points, used, tolerance);
 }
 
