@@ -263,7 +263,7 @@ printf '[convert]\ndim = 8\nuntil = { levels = 1 }\n[[object]]\nuntil = { levels
 expect 0 ': 386 active voxels' convert until.toml -o until.vdb
 expect 0 ': 386 active voxels' convert until.toml -o until.vdb --force --separating 26
 expect 0 '' convert until.toml -o until.vdb --force --until voxel --verbose
-grep -q 'submeshes' stderr || fail "--until over an object's: $(cat stderr)"
+grep -q 'submesh' stderr || fail "--until over an object's: $(cat stderr)"
 printf '[convert]\ndim = 8\nuntil = { levels = 0 }\n[[object]]\n%s\n' "$cube" >until.toml
 expect 0 ': 386 active voxels' convert until.toml -o until.vdb --force
 for until in voxels levels levels=31 levels=-1 levels=two; do
@@ -734,7 +734,7 @@ cp good.obj good.json
 ln -s good.json alias.obj
 expect 2 'is the input' convert alias.obj -o out.vdb --dim 8 --report good.json --force
 expect 0 '' convert "$scenes/gallery.toml" -o gallery.vdb --dim 100 --force --verbose
-grep -qE 'jack: 266 faces, 1 submeshes, [0-9]+ vertices \(by level .*\), [0-9]+ active voxels, .* per voxel' stderr || fail "verbose: $(cat stderr)"
+grep -qE 'jack: 266 faces, 1 submesh, [0-9]+ vertices \(by level .*\), [0-9]+ active voxels, .* per voxel' stderr || fail "verbose: $(cat stderr)"
 grep -q 'seconds on .* read .* prepare .* surface .* grids .* write' stderr || fail "verbose: no times"
 grep -q 'memory: peak .*, density ' stderr || fail "verbose: no memory"
 

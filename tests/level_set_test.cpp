@@ -343,8 +343,7 @@ TEST_CASE("a tolerance has no effect, and a warning says so once", "[level-set]"
   ConvertOptions options = surfaceAt(0.1);
   CHECK(warningsOf(scene, options).empty());
   options.volume.tolerance = 0.3;
-  const std::vector<std::string> warning = {
-      "the tolerance has no effect any more; leave it out"};
+  const std::vector<std::string> warning = {"the tolerance has no effect any more; leave it out"};
   CHECK(warningsOf(scene, options) == warning);
   scene.volume.tolerance = 0.2;
   CHECK(warningsOf(scene, options) == warning);
