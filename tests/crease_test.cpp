@@ -394,3 +394,33 @@ TEST_CASE("level sets of flat sheets with corners are those of their polygons",
     CHECK(wrong == 0);
   }
 }
+
+TEST_CASE("normals of a polyhedron with sharp edges are those of its faces, also at corners",
+          "[normals][crease]") {
+  const PolygonMesh mesh = test::tetrahedron();
+  std::vector<Vec3d> ofFaces;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto face = mesh.face(f);
+    const auto at = [&](std::size_t i) { return mesh.points[face[i]]; };
+    ofFaces.push_back((at(1) - at(0)).cross(at(2) - at(0)).normalized());
+  }
+  ConvertOptions options;
+  options.grids = std::vector{GridKind::kNormal};
+  options.smoothing.crease = CreaseRule{.degrees = 0.0};
+  for (const int dim : {40, 61, 97}) {
+    options.voxelSize = usedBox(mesh).longestSide() / dim;
+    const Conversion conversion = convert(test::oneObject(mesh), options);
+    const auto grid = openvdb::gridConstPtrCast<openvdb::Vec3SGrid>(
+        openvdb::GridBase::ConstPtr(conversion.grids.at(0)));
+    std::size_t wrong = 0;
+    for (auto it = grid->cbeginValueOn(); it; ++it) {
+      const openvdb::Vec3f n = it.getValue();
+      double nearest = 2;
+      for (const Vec3d& face : ofFaces)
+        nearest = std::min(nearest, (Vec3d(n[0], n[1], n[2]) - face).norm());
+      wrong += nearest > 1e-3 ? 1 : 0;
+    }
+    CHECK(grid->activeVoxelCount() > 0);
+    CHECK(wrong == 0);
+  }
+}
