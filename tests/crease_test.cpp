@@ -1,5 +1,6 @@
 #include "libvox/prepare/crease.h"
 
+#include "libvox/grid/openvdb.h"
 #include "libvox/mesh/chaikin.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/convert.h"
@@ -8,6 +9,7 @@
 #include "libvox/prepare/sound.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "libvox/subdivide/stop.h"
+#include "tests/closest_point.h"
 #include "tests/conversion.h"
 #include "tests/reference.h"
 #include "tests/scenes.h"
@@ -17,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <random>
@@ -323,5 +326,101 @@ TEST_CASE("creased surfaces leave no tunnels", "[prepare][crease][property]") {
           CHECK(test::sidesOf(joined, test::maskOf(conversion)).leaks == 0);
         }
       }
+  }
+}
+
+TEST_CASE("level sets of meshes with all edges sharp are those of their polygons",
+          "[level-set][crease]") {
+  const auto surfaceOf = [](const PolygonMesh& mesh, double voxelSize, bool sharp) {
+    ConvertOptions options;
+    options.voxelSize = voxelSize;
+    options.grids = std::vector{GridKind::kSurface};
+    if (sharp)
+      options.smoothing.crease = CreaseRule{.degrees = 0.0};
+    else
+      options.until = StopRule{.levels = 0};
+    return openvdb::gridConstPtrCast<openvdb::FloatGrid>(
+        openvdb::GridBase::ConstPtr(convert(test::oneObject(mesh), options).grids.at(0)));
+  };
+  const PolygonMesh hollow = test::together(test::cube(), test::cube(), {0, 0, 0}, 0.6);
+  const PolygonMesh thin = [] {
+    PolygonMesh mesh = test::cube();
+    for (Vec3d& p : mesh.points) p.z() *= 0.02;
+    return mesh;
+  }();
+  const PolygonMesh spike = [] {
+    PolygonMesh mesh = test::pyramid(3);
+    for (Vec3d& p : mesh.points) p.z() *= 4;
+    return mesh;
+  }();
+  for (const PolygonMesh& mesh :
+       {test::cube(), hollow, thin, spike, test::prism(5), test::tetrahedron()})
+    for (const double voxelSize : {0.05, 0.0206186, 0.0333333}) {
+      CAPTURE(mesh.pointCount(), voxelSize);
+      const auto smooth = surfaceOf(mesh, voxelSize, true);
+      const auto polygons = surfaceOf(mesh, voxelSize, false);
+      const auto truth = polygons->getConstAccessor();
+      const auto values = smooth->getConstAccessor();
+      std::size_t wrong = 0;
+      std::size_t missing = 0;
+      for (auto it = smooth->cbeginValueOn(); it; ++it)
+        wrong += std::abs(it.getValue() - truth.getValue(it.getCoord())) > 0.01 * voxelSize ? 1 : 0;
+      for (auto it = polygons->cbeginValueOn(); it; ++it)
+        missing += !values.isValueOn(it.getCoord()) && std::abs(it.getValue()) < 2.98 * voxelSize;
+      CHECK(wrong == 0);
+      CHECK(missing == 0);
+    }
+}
+
+TEST_CASE("level sets of flat sheets with corners are those of their polygons",
+          "[level-set][crease]") {
+  const PolygonMesh square = test::regularPolygon(4);
+  ConvertOptions options;
+  options.smoothing.boundary = BoundaryRule::kCorners;
+  options.grids = std::vector{GridKind::kSurface};
+  for (const double voxelSize : {0.02, 0.033, 0.05}) {
+    options.voxelSize = voxelSize;
+    const Conversion conversion = convert(test::oneObject(square), options);
+    const auto grid = openvdb::gridConstPtrCast<openvdb::FloatGrid>(
+        openvdb::GridBase::ConstPtr(conversion.grids.at(0)));
+    const test::ClosestPolygon truth(test::scaled(square, 1 / voxelSize));
+    std::size_t wrong = 0;
+    for (auto it = grid->cbeginValueOn(); it; ++it) {
+      const openvdb::Coord at = it.getCoord();
+      const double distance = truth.of(Vec3d(at.x(), at.y(), at.z())).distance;
+      wrong += std::abs(it.getValue() / voxelSize - (distance - 0.5)) > 0.01 ? 1 : 0;
+    }
+    CHECK(grid->activeVoxelCount() > 0);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("normals of a polyhedron with sharp edges are those of its faces, also at corners",
+          "[normals][crease]") {
+  const PolygonMesh mesh = test::tetrahedron();
+  std::vector<Vec3d> ofFaces;
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const auto face = mesh.face(f);
+    const auto at = [&](std::size_t i) { return mesh.points[face[i]]; };
+    ofFaces.push_back((at(1) - at(0)).cross(at(2) - at(0)).normalized());
+  }
+  ConvertOptions options;
+  options.grids = std::vector{GridKind::kNormal};
+  options.smoothing.crease = CreaseRule{.degrees = 0.0};
+  for (const int dim : {40, 61, 97}) {
+    options.voxelSize = usedBox(mesh).longestSide() / dim;
+    const Conversion conversion = convert(test::oneObject(mesh), options);
+    const auto grid = openvdb::gridConstPtrCast<openvdb::Vec3SGrid>(
+        openvdb::GridBase::ConstPtr(conversion.grids.at(0)));
+    std::size_t wrong = 0;
+    for (auto it = grid->cbeginValueOn(); it; ++it) {
+      const openvdb::Vec3f n = it.getValue();
+      double nearest = 2;
+      for (const Vec3d& face : ofFaces)
+        nearest = std::min(nearest, (Vec3d(n[0], n[1], n[2]) - face).norm());
+      wrong += nearest > 1e-3 ? 1 : 0;
+    }
+    CHECK(grid->activeVoxelCount() > 0);
+    CHECK(wrong == 0);
   }
 }

@@ -54,6 +54,7 @@ struct TriangleCell {
   Float3 normal;                      ///< unit
   std::array<Float3, 3> edgeNormals;  ///< of the edge from point i to the next: sum of both faces'
   std::array<Float3, 3> vertexNormals;  ///< means of the faces', weighted by their angles
+  float creaseBias = 0;                 ///< kRibbon: as that of a NewtonCell
   /// kRibbon: place of each point in the square of the corner that owns the cell.
   std::array<std::array<float, 2>, 3> places = {};
 };

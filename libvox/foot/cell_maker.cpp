@@ -161,10 +161,15 @@ struct CellMaker::Shape {
   }
 };
 
+float CellMaker::biasOf(unsigned sides) const {
+  return options_.creases && sides != 0 ? kCreaseBias : 0;
+}
+
 void CellMaker::piece(const LimitPiece& piece) {
   piece_ = &piece;
-  if (piece.boundarySides != kAllSides && ribbon_.set(piece))
-    return addRibbon(ribbon_, piece, options_.reach, owner(), store_);
+  const float bias = biasOf(piece.boundarySides);
+  if (piece.boundarySides != kAllSides && ribbon_.set(piece, bias != 0))
+    return addRibbon(ribbon_, piece, options_.reach, bias, owner(), store_);
   const auto parts = [&](bool alongU) {
     return std::max(1,
                     static_cast<int>(std::ceil(longestStep(piece, alongU) / kLongestFlat - 1e-6F)));
@@ -222,6 +227,10 @@ void CellMaker::splitCell(const ParameterBox& part, unsigned sides, int depth, b
 /// boundary also around everything within reach beyond it.
 Prism CellMaker::prismOf(const Shape& shape, unsigned sides) const {
   const float reach = options_.reach + kReachMargin;
+  // The way out of a side is perpendicular to it: in a skew cell it also leads along the side.
+  const float sizes = length(shape.guess[0]) * length(shape.guess[1]);
+  const float cosine = sizes > 0 ? std::abs(dot(shape.guess[0], shape.guess[1])) / sizes : 1;
+  const float skew = std::min(1.0F, 0.3F + cosine);
   std::array<float, 3> low, high;
   for (std::size_t k = 0; k < 2; ++k) {
     const float size = k == 0 ? shape.lengthA : shape.lengthB;
@@ -239,8 +248,8 @@ Prism CellMaker::prismOf(const Shape& shape, unsigned sides) const {
     if ((sides & (k == 0 ? kSideU0 : kSideV0)) != 0) low[k] -= across;
     if ((sides & (k == 0 ? kSideU1 : kSideV1)) != 0) high[k] += across;
     if (sides != 0) {
-      low[k] -= 0.3F * across;
-      high[k] += 0.3F * across;
+      low[k] -= skew * across;
+      high[k] += skew * across;
     }
   }
   const float sag = 0.2F * (shape.tube[2].high - shape.tube[2].low) + 0.01F;
@@ -279,7 +288,7 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   cell.surface = shape.c;
   cell.guess = shape.guess;
   cell.isCurve = piece_->boundarySides == kAllSides;
-  if (options_.creases && sides != 0) cell.creaseBias = kCreaseBias;
+  cell.creaseBias = biasOf(sides);
   cell.severalStarts = shape.badNormal || shape.sine > kMostSine;
   cell.mostSteps = cell.severalStarts ? 16 : 6;
   // Small cells may be strongly curved: there a small step counts in parameters.

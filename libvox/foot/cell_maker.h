@@ -34,6 +34,7 @@ class CellMaker : public LimitSink {
   Prism prismOf(const Shape& shape, unsigned sides) const;
   void addNewtonCell(const Shape& shape, const ParameterBox& part, unsigned sides);
   bool addPolynomialCell(const Shape& shape);
+  float biasOf(unsigned sides) const;
   std::uint32_t owner() const { return firstOwner_ + piece_->square.corner; }
 
   CellOptions options_;

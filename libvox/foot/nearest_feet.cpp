@@ -89,12 +89,14 @@ const Float3& polygonNormal(const TriangleCell& cell, const std::array<float, 3>
 
 Float3 normalAt(const FootBins& bins, const FootPlace& at) {
   if (at.cell->kind == CellKind::kNewton) {
-    const Biquadratic& surface = bins.newton(*at.cell).surface;
-    const Float3 normal = Jet(surface, at.a, at.b).normal();
+    const NewtonCell& cell = bins.newton(*at.cell);
+    // In a corner at a crease rounding errors have a normal, too (scan_cell).
+    const float in = cell.creaseBias == 0 ? 1 : 1 - 1.0F / 1024;
+    const Float3 normal = Jet(cell.surface, in * at.a, in * at.b).normal();
     // At a corner where two sides are parallel, the surface near it has the normal.
     constexpr float kNear = 0.9F;
     if (dot(normal, normal) > 0) return normal;
-    return Jet(surface, kNear * at.a, kNear * at.b).normal();
+    return Jet(cell.surface, kNear * at.a, kNear * at.b).normal();
   }
   const TriangleCell& cell = bins.triangle(*at.cell);
   const std::array<float, 3> weights = {1 - at.a - at.b, at.a, at.b};

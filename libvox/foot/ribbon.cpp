@@ -24,6 +24,15 @@ RibbonPoint pointAt(const LimitPiece& piece, double u, double v) {
   return {u, v, point, normal};
 }
 
+/// The normals a little farther in. In a corner at a crease a derivative is 0, and the product of
+/// rounding errors has any direction.
+void takeInnerNormals(const LimitPiece& piece, std::vector<RibbonPoint>& points) {
+  constexpr double kIn = 1 - 1.0 / 1024;
+  const auto farther = [](double p) { return 0.5 + kIn * (p - 0.5); };
+  for (RibbonPoint& point : points)
+    point.normal = pointAt(piece, farther(point.u), farther(point.v)).normal;
+}
+
 /// Half of the border of a piece: two sides, one after the other.
 class BorderPath {
  public:
@@ -115,7 +124,7 @@ void fillNormals(std::vector<RibbonPoint>& points) {
 
 }  // namespace
 
-bool Ribbon::set(const LimitPiece& piece) {
+bool Ribbon::set(const LimitPiece& piece, bool crease) {
   if (!mayBeNarrow(piece)) return false;
   for (const int from : {0, 1}) {
     const BorderPath a(piece, from, true);
@@ -139,15 +148,17 @@ bool Ribbon::set(const LimitPiece& piece) {
       right.push_back((from == 0 ? a : b).at(fraction));
       left.push_back((from == 0 ? b : a).at(fraction));
     }
-    fillNormals(right);
-    fillNormals(left);
+    for (auto* side : {&right, &left}) {
+      if (crease) takeInnerNormals(piece, *side);
+      fillNormals(*side);
+    }
     return !right[0].normal.isZero(0) && !left[0].normal.isZero(0);
   }
   return false;
 }
 
-void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, std::uint32_t owner,
-               CellStore& store) {
+void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, float creaseBias,
+               std::uint32_t owner, CellStore& store) {
   const auto add = [&](const RibbonPoint& a, const RibbonPoint& b, const RibbonPoint& c) {
     const std::array<const RibbonPoint*, 3> corners = {&a, &b, &c};
     const openvdb::Coord origin = openvdb::Coord::round(openvdb::Vec3d(a.point.data()));
@@ -170,6 +181,7 @@ void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, std::
     TriangleCell& cell = store.triangles.emplace_back();
     cell.prism = prism;
     cell.normal = asFloats(mean);
+    cell.creaseBias = creaseBias;
     for (std::size_t i = 0; i < 3; ++i) {
       cell.points[i] = asFloats(points[i]);
       cell.edgeNormals[i] = asFloats(corners[i]->normal + corners[(i + 1) % 3]->normal);

@@ -19,13 +19,15 @@ struct Ribbon {
   std::vector<RibbonPoint> right, left;  ///< as many; seen from outside and from the first point
 
   /// Sets the ribbon of a piece.
+  /// @param crease  the piece is at a crease; at its corners, normals are those a little farther in
   /// @return whether the piece is narrow enough
-  bool set(const LimitPiece& piece);
+  bool set(const LimitPiece& piece, bool crease);
 };
 
 /// Adds the triangles of a ribbon to a store, as cells of the kind kRibbon.
 /// @param reach  largest distance of interest, voxels
-void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, std::uint32_t owner,
-               CellStore& store);
+/// @param creaseBias  of the cells
+void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, float creaseBias,
+               std::uint32_t owner, CellStore& store);
 
 }  // namespace vox

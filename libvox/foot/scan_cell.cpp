@@ -42,6 +42,28 @@ HWY_INLINE V squareDistance(const Biquadratic& surface, const V3& x, V a, V b) {
   return dot3(r, r);
 }
 
+/// A normal at a, b, of any length. In a corner at a crease a derivative is 0, and the product of
+/// rounding errors has any direction. So in cells at creases it is the normal a little farther in.
+/// @param jet  at a, b
+HWY_INLINE V3 normalAt(const NewtonCell& cell, V a, V b, const JetV& jet) {
+  if (cell.creaseBias == 0) return cross3(jet.sa, jet.sb);
+  const V in = set(1 - 1.0F / 1024);
+  JetV inner;
+  jetAt(cell.surface, hn::Mul(in, a), hn::Mul(in, b), inner);
+  return cross3(inner.sa, inner.sb);
+}
+
+/// At a crease both sides have the same foot. The side to which the point lies more upright tells
+/// its sign, so the other one counts as a little farther.
+/// @param side    product of the way from the foot to the point, and of a normal
+/// @param r2, n2  squares of their lengths
+HWY_INLINE V withBias(float bias, V distance, V side, V r2, V n2) {
+  const V one = set(1);
+  const V tiny = set(1e-30F);
+  const V upright2 = hn::Div(hn::Div(hn::Mul(side, side), hn::Max(n2, tiny)), hn::Max(r2, tiny));
+  return mulAdd(set(bias), hn::Sub(one, hn::Sqrt(hn::Min(upright2, one))), distance);
+}
+
 void solve(const NewtonCell& cell, const Float3& shift, Feet& feet) {
   const D d;
   const std::size_t lanes = hn::Lanes(d);
@@ -73,7 +95,7 @@ void solve(const NewtonCell& cell, const Float3& shift, Feet& feet) {
     }
     JetV jet;
     jetAt(cell.surface, a, b, jet);
-    const V3 n = cross3(jet.sa, jet.sb);
+    const V3 n = normalAt(cell, a, b, jet);
     const V3 r = {hn::Sub(x[0], jet.s[0]), hn::Sub(x[1], jet.s[1]), hn::Sub(x[2], jet.s[2])};
     const V side = dot3(r, n);
     const V n2 = dot3(n, n);
@@ -84,10 +106,7 @@ void solve(const NewtonCell& cell, const Float3& shift, Feet& feet) {
         hn::And(hn::Lt(hn::Max(hn::Abs(a), hn::Abs(b)), one),
                 hn::And(hn::Lt(set(1e-12F), n2), hn::Lt(hn::Sub(r2, t2), set(0.04F))));
     const V nearest = hn::Sqrt(hn::IfThenElse(inside, hn::Min(t2, r2), r2));
-    // At a crease both sides have the same foot. The side to which the point lies more upright
-    // tells its sign, so the other one counts as a little farther.
-    const V upright = hn::Sqrt(hn::Min(hn::Div(t2, hn::Max(r2, set(1e-30F))), one));
-    const V distance = mulAdd(set(cell.creaseBias), hn::Sub(one, upright), nearest);
+    const V distance = withBias(cell.creaseBias, nearest, side, r2, n2);
     hn::Store(hn::CopySign(distance, side), d, feet.t.data() + i);
     hn::Store(a, d, feet.a.data() + i);
     hn::Store(b, d, feet.b.data() + i);
@@ -147,7 +166,11 @@ void solveTriangle(const TriangleCell& cell, const Float3& shift, Feet& feet) {
     V3 r;
     for (std::size_t k = 0; k < 3; ++k)
       r[k] = hn::Sub(ax[k], hn::Add(hn::Mul(v, set(ab[k])), hn::Mul(w, set(ac[k]))));
-    hn::Store(hn::CopySign(hn::Sqrt(dot3(r, r)), dot3(r, n)), d, feet.t.data() + i);
+    const V side = dot3(r, n);
+    V distance = hn::Sqrt(dot3(r, r));
+    if (cell.creaseBias != 0)
+      distance = withBias(cell.creaseBias, distance, side, dot3(r, r), dot3(n, n));
+    hn::Store(hn::CopySign(distance, side), d, feet.t.data() + i);
     hn::Store(v, d, feet.a.data() + i);
     hn::Store(w, d, feet.b.data() + i);
   }
