@@ -283,6 +283,58 @@ TEST_CASE("a closed object keeps its sign beside an open one", "[level-set]") {
   }
 }
 
+TEST_CASE("a sheet beside a body stays one voxel thick", "[level-set]") {
+  const double voxelSize = 0.1;
+  const PolygonMesh cube = test::cube();
+  PolygonMesh sheet = test::sheet(4, 4);
+  for (const double beyond : {1.5, 2.0, 2.5, 3.5}) {
+    for (Vec3d& p : sheet.points) p.z() = 0;
+    const double top = 1;  // of the smooth cube
+    const double height = top + beyond * voxelSize;
+    const auto grid = levelSet({cube, test::moved(sheet, Vec3d(-2, -2, height))}, voxelSize);
+    CAPTURE(beyond);
+    for (const LintFinding& finding : lintGrid(*grid)) {
+      CAPTURE(finding.message);
+      CHECK(finding.code != "level-set");
+    }
+    for (auto value = grid->cbeginValueAll(); value; ++value)
+      if (worldOf(*grid, value.getCoord()).z() > height - 0.5 * voxelSize)
+        REQUIRE(*value >= -0.51F * static_cast<float>(voxelSize));
+  }
+}
+
+TEST_CASE("plates that touch are one solid, though each is thinner than a voxel", "[level-set]") {
+  const auto plate = [](double low, double high) {
+    PolygonMesh mesh = test::cube();
+    for (Vec3d& p : mesh.points) p = Vec3d(10 * p.x(), 10 * p.y(), p.z() < 0 ? low : high);
+    return mesh;
+  };
+  ConvertOptions options = surfaceAt(1);
+  options.until = StopRule{.levels = 0};
+  for (const double touch : {-0.2, -0.01, 0.0, 0.01, 0.2}) {
+    const auto grid = surfaceOf(convert(
+        sceneOf({plate(-0.7, touch), test::moved(plate(touch, 0.9), Vec3d(0.5, 0, 0))}), options));
+    CAPTURE(touch);
+    for (int x = -8; x <= 8; ++x)
+      REQUIRE(valueAt(*grid, Vec3d(x, 0, 0)) == Approx(-0.7).margin(0.02));
+  }
+}
+
+TEST_CASE("wide bands in unions of polygons know no polygons deep inside", "[level-set]") {
+  const PolygonMesh a = test::cube();
+  const PolygonMesh b = test::moved(a, Vec3d(1, 0.3, 0));
+  const double voxelSize = 0.05;
+  ConvertOptions options = surfaceAt(voxelSize);
+  options.until = StopRule{.levels = 0};
+  options.volume.band = 25;
+  const auto grid = surfaceOf(convert(sceneOf({a, b}), options));
+  const double kept = 1.7 * voxelSize;  // hidden parts that are this near to the outside are kept
+  const double toNotches = std::hypot(0.5, 0.85);  // from the middle
+  CHECK(valueAt(*grid, Vec3d(0.5, 0.15, 0)) == Approx(-toNotches).margin(kept));
+  CHECK(valueAt(*grid, Vec3d(0, 0, 0.3)) == Approx(-0.7).margin(kept));
+  CHECK(valueAt(*grid, Vec3d(1, 0.3, 0.2)) == Approx(-0.8).margin(kept));
+}
+
 TEST_CASE("a band of two widths has a background for each side, beside open objects, too",
           "[level-set]") {
   const PolygonMesh solid = test::moved(test::cube(), Vec3d(9, 0, 0), 20);

@@ -212,6 +212,12 @@ TEST_CASE("binary vertices at NaN are dropped if no face uses them", "[io][ply]"
 
 // --- OFF -----------------------------------------------------------------------------------------
 
+TEST_CASE("an OFF keyword may be in lower case", "[io][off]") {
+  for (const std::string header : {"off\n3 1 0\n", "off 3 1 0\n", "off3 1 0\n"})
+    CHECK(polygonsOf(read("a.off", header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").mesh) ==
+          Polygons{{0, 1, 2}});
+}
+
 TEST_CASE("an OFF keyword may be glued to the counts", "[io][off]") {
   const auto [keyword, more] =
       GENERATE(table<std::string, std::string>({{"OFF", ""},

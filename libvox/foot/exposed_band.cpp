@@ -7,6 +7,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/foot/scan_bin.h"
+#include "libvox/grid/leaf_words.h"
 #include "libvox/grid/openvdb.h"
 
 #include <openvdb/tools/SignedFloodFill.h>
@@ -51,25 +52,43 @@ bool isSolid(const openvdb::MaskTree& solid, const MaskLeaf* leaf, const Coord& 
   return leaf != nullptr ? leaf->isValueOn(voxel) : solid.isValueOn(origin);
 }
 
-/// Hidden voxels of a leaf, and others whose sign is not that of the foot.
+LeafWords solidWords(const openvdb::MaskTree& solid, const Coord& leafOrigin) {
+  if (const MaskLeaf* leaf = solid.probeConstLeaf(leafOrigin)) return activeWords(*leaf);
+  LeafWords words;
+  words.fill(solid.isValueOn(leafOrigin) ? ~std::uint64_t{0} : 0);
+  return words;
+}
+
+/// Whether one of the 26 neighbours of a voxel is not solid.
+bool isNearOutside(const openvdb::MaskTree& solid, const Coord& voxel) {
+  for (int i = 0; i < 27; ++i)
+    if (!solid.isValueOn(voxel.offsetBy(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1))) return true;
+  return false;
+}
+
+/// Hidden voxels of a leaf, and others whose sign may not be that of the foot: on the outer side of
+/// an exposed part, a neighbour is outside.
 openvdb::CoordBBox doubtfulBox(const Leaf& leaf, const openvdb::MaskTree& solid, float hidden) {
-  const MaskLeaf* const solidLeaf = solid.probeConstLeaf(leaf.origin());
-  const bool all = solidLeaf == nullptr && solid.isValueOn(leaf.origin());
+  const LeafWords inSolid = solidWords(solid, leaf.origin());
+  const LeafWords nearOutside = allNeighboursOf(complementOf(inSolid));
   openvdb::CoordBBox box;
   const float* values = leaf.buffer().data();
   for (openvdb::Index x = 0; x < 8; ++x) {
     const auto active = leaf.getValueMask().getWord<openvdb::Index64>(x);
-    const std::uint64_t inSolid = solidLeaf != nullptr
-                                      ? solidLeaf->getValueMask().getWord<openvdb::Index64>(x)
-                                      : (all ? ~std::uint64_t{0} : 0);
-    std::uint64_t plus = 0, minus = 0;
+    std::uint64_t far = 0, minus = 0;
     for (unsigned bit = 0; bit < 64; ++bit) {
-      plus |= std::uint64_t{values[x << 6 | bit] > hidden} << bit;
+      far |= std::uint64_t{values[x << 6 | bit] > hidden} << bit;
       minus |= std::uint64_t{values[x << 6 | bit] < 0} << bit;
     }
-    for (std::uint64_t left = active & ((plus & inSolid) | (minus & ~inSolid)); left != 0;
+    const auto voxel = [&](std::uint64_t bits) {
+      return leaf.offsetToGlobalCoord(x << 6 | static_cast<unsigned>(std::countr_zero(bits)));
+    };
+    for (std::uint64_t left = active & ((far & inSolid[x]) | (minus & ~inSolid[x])); left != 0;
          left &= left - 1)
-      box.expand(leaf.offsetToGlobalCoord(x << 6 | static_cast<unsigned>(std::countr_zero(left))));
+      box.expand(voxel(left));
+    for (std::uint64_t left = active & inSolid[x] & ~minus & ~far & ~nearOutside[x]; left != 0;
+         left &= left - 1)
+      if (!isNearOutside(solid, voxel(left))) box.expand(voxel(left));
   }
   return box;
 }

@@ -41,6 +41,7 @@ struct WideWork {
   Feet feet;
   std::array<std::uint32_t, 512> keys;
   std::array<std::int32_t, 512> cells;
+  std::array<float, 512> least;  // distances, by those of the neighbours
 };
 
 class BandWidener {
@@ -108,6 +109,9 @@ class BandWidener {
 
  private:
   static constexpr std::int32_t kNoCell = -1;
+  /// Distances change no more than the place, but for what they are off. So a foot that is nearer
+  /// lies on a part that is hidden inside others.
+  static constexpr float kSlack = 0.03F;  // voxels
 
   /// Sets distances and cells of new voxels; switches off those that are too far.
   void findNearest(MaskLeaf& leaf, float* values, std::int32_t* cells) {
@@ -127,7 +131,7 @@ class BandWidener {
       const openvdb::Index i = voxel.pos();
       if (work.keys[i] == kNoKey) continue;
       const bool isInside = values[i] < 0;
-      const float t = std::abs(distanceOf(work.keys[i]));
+      const float t = std::max(std::abs(distanceOf(work.keys[i])), work.least[i]);
       const float signedT = (isInside ? -t : t) - thickness;
       if (!(signedT < out && signedT > -in) || t > farthest_) continue;
       values[i] = signedT * voxelSize_;
@@ -144,10 +148,15 @@ class BandWidener {
     openvdb::tree::ValueAccessor<const CellTree> nearest(nearest_);
     for (auto voxel = leaf.cbeginValueOn(); voxel; ++voxel) {
       work.keys[voxel.pos()] = kNoKey;
+      work.least[voxel.pos()] = 0;
       const Coord at = voxel.getCoord();
       for (int i = 0; i < 27; ++i) {
         const Coord near = at.offsetBy(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1);
-        if (!known.isValueOn(near)) continue;
+        float value = 0;
+        if (!known.probeValue(near, value)) continue;
+        const float t = std::abs(value / voxelSize_ + static_cast<float>(options_.halfThickness));
+        float& least = work.least[voxel.pos()];
+        least = std::max(least, t - static_cast<float>((near - at).asVec3d().length()) - kSlack);
         const std::int32_t cell = nearest.getValue(near);
         if (cell != kNoCell)
           work.candidates.push_back({cell, static_cast<std::uint16_t>(voxel.pos())});

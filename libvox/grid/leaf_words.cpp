@@ -52,6 +52,18 @@ LeafWords neighboursOf(const LeafWords& voxels) {
   return near;
 }
 
+LeafWords allNeighboursOf(const LeafWords& voxels) {
+  LeafWords near;
+  for (std::size_t x = 0; x < 8; ++x) {
+    std::uint64_t v = voxels[x];
+    if (x > 0) v |= voxels[x - 1];
+    if (x < 7) v |= voxels[x + 1];
+    v |= (v << 1 & kNotFirstZ) | (v >> 1 & kNotLastZ);
+    near[x] = v | v << 8 | v >> 8;
+  }
+  return near;
+}
+
 LeafWords flooded(const LeafWords& seeds, const LeafWords& open) {
   LeafWords f;
   for (std::size_t x = 0; x < 8; ++x) f[x] = seeds[x] & open[x];

@@ -30,6 +30,9 @@ int lowestVoxel(const LeafWords& voxels);
 /// The voxels of a leaf that have a face in common with a voxel of a set.
 LeafWords neighboursOf(const LeafWords& voxels);
 
+/// The voxels of a set, and those of the leaf that have a face, edge or corner in common with one.
+LeafWords allNeighboursOf(const LeafWords& voxels);
+
 /// The voxels that `seeds` reach through `open` voxels, face to face, within the leaf; without the
 /// seeds that are not open.
 LeafWords flooded(const LeafWords& seeds, const LeafWords& open);

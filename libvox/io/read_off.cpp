@@ -85,10 +85,11 @@ void OffParser::skipEdgeCount() {
   if (!edges.empty() && isWhole && ahead.token().empty()) scan_ = ahead;
 }
 
-// Reads the keyword at the start of the token, if there is one, and returns what follows it.
+// Reads the keyword at the start of the token, if there is one, and returns what follows it. Some
+// programs write it in lower case.
 std::string_view OffParser::afterKeyword(std::string_view token) {
   constexpr std::string_view kOff = "OFF";
-  const std::size_t off = token.find(kOff);
+  const std::size_t off = token.starts_with("off") ? 0 : token.find(kOff);
   if (off == token.npos) return token;
   const std::size_t end = off + kOff.size();
   const std::string_view glued = token.substr(end);

@@ -33,7 +33,7 @@ namespace {
 struct Part {
   std::size_t surface;
   const MeshComponent* component;
-  Box box;  // of its control points, which hold the surface; index space
+  Box box;  // of its control points, which hold the surface, and a little more; index space
 
   bool isClosed() const { return component->side != MeshComponent::Side::kNoInside; }
 };
@@ -88,7 +88,10 @@ class LevelSetMaker {
       components_.push_back(componentsOf(surface.base));
     for (std::size_t s = 0; s < surfaces.size(); ++s)
       for (const MeshComponent& component : components_[s]) {
-        const Part part{s, &component, boxOf(surfaces[s].base.mesh, component.faces)};
+        Part part{s, &component, boxOf(surfaces[s].base.mesh, component.faces)};
+        constexpr double kTouching = 0.01;  // voxels: solids that touch may be off by rounding
+        part.box.low.array() -= kTouching;
+        part.box.high.array() += kTouching;
         (part.isClosed() ? closed_ : open_).push_back(part);
       }
   }
@@ -97,7 +100,7 @@ class LevelSetMaker {
     if (!open_.empty()) findEnclosing();
     openvdb::FloatTree::Ptr tree;
     if (!closed_.empty()) tree = bandOfSolids();
-    if (tree && solid_.closure.voxels) addLids(*tree);
+    if (tree && endsAtOthers_) addLids(*tree);
     if (!open_.empty()) {
       const openvdb::FloatTree::Ptr sheets = bandOfSheets();
       if (tree)
@@ -139,6 +142,7 @@ class LevelSetMaker {
         have = haveInside(surfaces_[s], components_[s], inside_, progress_);
       const auto number = static_cast<std::size_t>(open_[i].component - components_[s].data());
       (have[number] ? closed_ : sheets).push_back(open_[i]);
+      if (have[number]) endsAtOthers_ = true;
     }
     open_ = std::move(sheets);
   }
@@ -151,27 +155,33 @@ class LevelSetMaker {
     inside_.solid = solid_.voxels.get();
   }
 
+  struct BandVoxel {
+    openvdb::Coord at;
+    float value;
+    bool isActive;
+  };
+
   using FloatValues = openvdb::tree::ValueAccessor<openvdb::FloatTree>;
 
-  /// Where an opening was closed, the outer sides of the closing voxels are surface, too, and so is
-  /// what is left between them and the boundary: sides of voxels that a sign jumps across.
+  /// Where an open part ends at voxels that close it, sides of voxels are surface, too: the outer
+  /// ones of voxels that close an opening, and those that the sign jumps across.
   void addLids(openvdb::FloatTree& tree) const {
-    FloatValues values(tree);
-    for (const auto& [inner, outer] : solid_.closure.sides) addLid(inner, outer, values);
-    constexpr int kNear = 2;
+    std::vector<std::pair<openvdb::Coord, openvdb::Coord>> sides = solid_.closure.sides;
     const double mostApart = 1.02 * voxelSize_;
-    for (auto voxel = solid_.closure.voxels->cbeginValueOn(); voxel; ++voxel) {
-      const openvdb::CoordBBox around(voxel.getCoord().offsetBy(-kNear),
-                                      voxel.getCoord().offsetBy(kNear));
-      for (auto at = around.begin(); at != around.end(); ++at)
-        for (int axis = 0; axis < 3; ++axis) {
-          openvdb::Coord next = *at;
-          ++next[axis];
-          const double a = values.getValue(*at);
-          const double b = values.getValue(next);
-          if ((a < 0) != (b < 0) && std::abs(a - b) > mostApart) addLid(*at, next, values);
-        }
+    const openvdb::tree::ValueAccessor<const openvdb::FloatTree> known(tree);
+    for (auto value = std::as_const(tree).cbeginValueOn(); value; ++value) {
+      const double a = *value;
+      for (int i = 0; i < 6; ++i) {
+        openvdb::Coord next = value.getCoord();
+        next[i / 2] += i % 2 == 0 ? 1 : -1;
+        openvdb::FloatTree::ValueType b = 0;
+        const bool isActive = known.probeValue(next, b);
+        if ((a < 0) == (b < 0) || std::abs(a - double{b}) <= mostApart) continue;
+        if (i % 2 == 0 || !isActive) sides.emplace_back(value.getCoord(), next);
+      }
     }
+    FloatValues values(tree);
+    for (const auto& [inner, outer] : sides) addLid(inner, outer, values);
     openvdb::tools::signedFloodFillWithValues(tree, backgroundOf(settings_.band.out, voxelSize_),
                                               -backgroundOf(settings_.band.in, voxelSize_));
   }
@@ -223,7 +233,7 @@ class LevelSetMaker {
     const BandOptions narrow = narrowed(options);
     const double share = closed_.empty() ? 1 : 0.1;
     FootCells cells(cellOptions(narrow, isWide(options)), budget_);
-    addCells(open_, {}, kPartOfCells * share, cells);
+    addCells(open_, nullptr, kPartOfCells * share, cells);
     const FootBins bins = cells.bins();
     const Band band = makeBand(bins, narrow, progress_, (1 - kPartOfCells) * share);
     if (isWide(options)) widen(*band.tree, kMostExact, bins, options, progress_);
@@ -234,7 +244,7 @@ class LevelSetMaker {
   openvdb::FloatTree::Ptr bandByFeet(const BandOptions& options, double share) {
     const BandOptions narrow = narrowed(options);
     FootCells cells(cellOptions(narrow, isWide(options)), budget_);
-    addCells(closed_, {}, kPartOfCells * share, cells);
+    addCells(closed_, nullptr, kPartOfCells * share, cells);
     const FootBins bins = cells.bins();
     const Band band = makeBand(bins, narrow, progress_, (1 - kPartOfCells) * share);
     if (!band.jumps.empty()) {
@@ -251,7 +261,7 @@ class LevelSetMaker {
     BandOptions even = narrowed(options);
     even.in = even.out = std::max({even.in, even.out, kLeastToExpose});
     FootCells cells(cellOptions(even, isWide(options)), budget_);
-    addCells(closed_, {}, kPartOfCells * share, cells);
+    addCells(closed_, nullptr, kPartOfCells * share, cells);
     const FootBins bins = cells.bins();
     const Band band = makeBand(bins, even, progress_, (1 - kPartOfCells) * share);
     const openvdb::MaskTree::Ptr solid = exposeParts(band, bins, even);
@@ -267,7 +277,16 @@ class LevelSetMaker {
                                      const BandOptions& options) const {
     if (solid_.voxels) {
       constexpr double kNotCrossed = 1;  // voxels, from the surface
+      std::vector<BandVoxel> besideBodies;
+      if (!open_.empty() || endsAtOthers_)
+        for (const openvdb::Coord& at : sheetVoxels(inside_, *band.tree, voxelSize_))
+          besideBodies.push_back({at, band.tree->getValue(at), band.tree->isValueOn(at)});
       expose(band, bins, *solid_.voxels, kNotCrossed, options, progress_);
+      for (const BandVoxel& voxel : besideBodies)
+        if (voxel.isActive)
+          band.tree->setValueOn(voxel.at, std::abs(voxel.value));
+        else
+          band.tree->setValueOff(voxel.at, backgroundOf(options.out, voxelSize_));
       return solid_.voxels;
     }
     const openvdb::MaskTree::Ptr walls = wallsOf(*band.tree, voxelSize_);
@@ -282,12 +301,7 @@ class LevelSetMaker {
   void widenExposed(openvdb::FloatTree& band, const openvdb::MaskTree& solid,
                     const BandOptions& options) const {
     FootCells cells(cellOptions(narrowed(options), true), budget_);
-    addCells(
-        closed_,
-        [&](LimitSink& next) {
-          return std::make_unique<ExposedPieces>(solid, kExposedDepth, next);
-        },
-        0, cells);
+    addCells(closed_, &solid, 0, cells);
     widen(band, kMostExact, cells.bins(), options, progress_);
   }
 
@@ -310,17 +324,25 @@ class LevelSetMaker {
     return {.reach = static_cast<float>(reach), .polynomials = !isWide, .places = false};
   }
 
-  /// @param filter  may be empty
-  void addCells(const std::vector<Part>& parts, const PieceFilter& filter, double share,
+  /// @param solid  if not null, only what is exposed counts, outside these voxels
+  void addCells(const std::vector<Part>& parts, const openvdb::MaskTree* solid, double share,
                 FootCells& cells) const {
+    PieceFilter filter;
+    if (solid != nullptr)
+      filter = [&](LimitSink& next) {
+        return std::make_unique<ExposedPieces>(*solid, kExposedDepth, next);
+      };
     const double shareOfSurface = share / static_cast<double>(surfaces_.size());
     forEachSurface(parts, [&](std::span<const Part> ofSurface) {
       const PreparedSurface& surface = surfaces_[ofSurface[0].surface];
       const std::vector<Index> faces = facesOf(ofSurface);
-      if (levelOf(surface.way))
-        cells.addTriangles(trianglesOfLevel(surface, faces, budget_, progress_), progress_);
-      else
+      if (!levelOf(surface.way)) {
         cells.addLimitSurface(surface, faces, filter, progress_, shareOfSurface);
+        return;
+      }
+      PolygonMesh triangles = trianglesOfLevel(surface, faces, budget_, progress_);
+      if (solid != nullptr) triangles = exposedTriangles(triangles, *solid, kExposedDepth);
+      cells.addTriangles(triangles, progress_);
     });
   }
 
@@ -332,6 +354,7 @@ class LevelSetMaker {
   Progress& progress_;
   std::vector<std::vector<MeshComponent>> components_;
   std::vector<Part> closed_, open_;
+  bool endsAtOthers_ = false;  // an open part is one of closed_
   std::vector<std::string>& warnings_;
   Solid solid_;
   Inside inside_;

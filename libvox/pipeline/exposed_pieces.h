@@ -2,6 +2,7 @@
 
 #include "libvox/grid/openvdb_fwd.h"
 #include "libvox/mesh/limit_piece.h"
+#include "libvox/mesh/polygon_mesh.h"
 
 namespace vox {
 
@@ -18,11 +19,16 @@ class ExposedPieces : public LimitSink {
   void piece(const LimitPiece& piece) override;
 
  private:
-  bool isExposed(const LimitPiece& piece, double u, double v) const;
+  bool isExposedAt(const LimitPiece& piece, double u, double v) const;
 
   const openvdb::MaskTree& solid_;
   double depth_;
   LimitSink& next_;
 };
+
+/// The same parts of a surface of triangles; triangles at the border are cut to less than a voxel.
+/// @param triangles  index space
+PolygonMesh exposedTriangles(const PolygonMesh& triangles, const openvdb::MaskTree& solid,
+                             double depth);
 
 }  // namespace vox

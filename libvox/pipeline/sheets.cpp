@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -97,6 +98,39 @@ BodiesAndSheets bodiesAndSheets(const PreparedSurface& surface, const Inside& in
                           components[i].faces.end());
   std::sort(parts.sheets.begin(), parts.sheets.end());
   return parts;
+}
+
+std::vector<openvdb::Coord> sheetVoxels(const Inside& inside, const openvdb::FloatTree& band,
+                                        double voxelSize) {
+  constexpr int kThickest = 3;  // voxels: that many a sheet may have one behind the other
+  const double near = voxelSize;
+  std::vector<openvdb::Coord> left;
+  for (auto leaf = band.cbeginLeaf(); leaf; ++leaf) {
+    const auto* const crossed = inside.surface->probeConstLeaf(leaf->origin());
+    if (crossed == nullptr) continue;
+    for (auto voxel = crossed->cbeginValueOn(); voxel; ++voxel) {
+      const openvdb::Index i = voxel.pos();
+      const bool ofBody = leaf->isValueOn(i) && std::abs(double{leaf->getValue(i)}) <= near;
+      if (!ofBody && inside.solid->isValueOn(voxel.getCoord())) left.push_back(voxel.getCoord());
+    }
+  }
+  openvdb::MaskTree solid(*inside.solid);
+  std::vector<openvdb::Coord> found;
+  for (int layer = 0; layer < kThickest; ++layer) {
+    const auto isHidden = [&](const openvdb::Coord& voxel) {
+      for (int i = 0; i < 6; ++i) {
+        openvdb::Coord next = voxel;
+        next[i / 2] += i % 2 == 0 ? 1 : -1;
+        if (!solid.isValueOn(next)) return false;
+      }
+      return true;
+    };
+    const auto begin = std::partition(left.begin(), left.end(), isHidden);
+    for (auto voxel = begin; voxel != left.end(); ++voxel) solid.setValueOff(*voxel);
+    found.insert(found.end(), begin, left.end());
+    left.erase(begin, left.end());
+  }
+  return found;
 }
 
 }  // namespace vox

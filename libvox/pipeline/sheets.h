@@ -33,4 +33,10 @@ struct BodiesAndSheets {
 BodiesAndSheets bodiesAndSheets(const PreparedSurface& surface, const Inside& inside,
                                 Progress& progress);
 
+/// Voxels of `inside.solid` that a surface crosses, but none of a level set, and that lie at the
+/// outside: sheets beside bodies are as active as these.
+/// @param band  level set of the bodies
+std::vector<openvdb::Coord> sheetVoxels(const Inside& inside, const openvdb::FloatTree& band,
+                                        double voxelSize);
+
 }  // namespace vox
