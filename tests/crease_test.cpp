@@ -424,3 +424,14 @@ TEST_CASE("normals of a polyhedron with sharp edges are those of its faces, also
     CHECK(wrong == 0);
   }
 }
+
+TEST_CASE("a sharp tube far thinner than a voxel has few voxels", "[crease][level-set]") {
+  PolygonMesh tube = test::prism(400);
+  for (Vec3d& p : tube.points) p = p.cwiseProduct(Vec3d(2e-4, 2e-4, 1));
+  ConvertOptions options;
+  options.voxelSize = 1;
+  options.grids = std::vector{GridKind::kSurface, GridKind::kNormal};
+  options.smoothing.crease = CreaseRule{.degrees = 30.0};
+  const Conversion conversion = convert(test::oneObject(tube), options);
+  for (const auto& grid : conversion.grids) CHECK(grid->activeVoxelCount() < 1000);
+}

@@ -16,6 +16,7 @@ constexpr float kLongestCurved = 4;  // voxels
 constexpr float kReachMargin = 0.05F;
 constexpr float kMostSine = 0.5F;  // of the turn of a normal within a cell
 constexpr int kMostDepth = 20;
+constexpr float kLeastArea = 1e-18F;  // squares of smaller numbers are 0 in floats
 constexpr float kCreaseBias = 1e-3F;  // voxels
 
 /// Longest step between control points along u, or along v.
@@ -116,7 +117,7 @@ struct CellMaker::Shape {
       const float ny = sa[2][i] * sb[0][i] - sa[0][i] * sb[2][i];
       const float nz = sa[0][i] * sb[1][i] - sa[1][i] * sb[0][i];
       const float size = std::sqrt(nx * nx + ny * ny + nz * nz);
-      const float inverse = 1 / std::max(size, 1e-30F);
+      const float inverse = size > kLeastArea ? 1 / size : 0;
       sizes[i] = size;
       n[0][i] = nx * inverse, n[1][i] = ny * inverse, n[2][i] = nz * inverse;
     }
@@ -143,7 +144,7 @@ struct CellMaker::Shape {
       for (std::size_t k = 0; k < 3; ++k) box[k].add(s[k][i], reach * std::abs(n[k][i]));
     }
     const auto [least, most] = std::minmax_element(sizes.begin(), sizes.end());
-    if (*least < 0.02F * *most) badNormal = true;
+    if (*least <= kLeastArea || *least < 0.02F * *most) badNormal = true;
     sine = std::sqrt(std::max(0.0F, turn));
     const auto wider = [&](std::size_t k) {
       return std::max(-tube[k].low, tube[k].high) - flat[k];
