@@ -4,6 +4,7 @@
 #include "libvox/io/read_mesh.h"
 
 #include "libvox/core/error.h"
+#include "tests/mesh_files.h"
 #include "tests/temporary_folder.h"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
@@ -22,18 +23,11 @@ using vox::test::TemporaryFolder;
 
 namespace {
 
-using Polygons = std::vector<std::vector<Index>>;
+using namespace vox::test;
 
 PolygonMesh readText(std::string_view extension, std::string_view contents) {
   const TemporaryFolder folder;
   return readMesh(folder.write("mesh" + std::string(extension), std::string(contents)));
-}
-
-Polygons polygonsOf(const PolygonMesh& mesh) {
-  Polygons polygons;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-    polygons.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
-  return polygons;
 }
 
 // The part of a message after "FILE:". Checks that the message starts so and is one printable
@@ -64,17 +58,6 @@ void checkRefused(std::string_view extension, const std::vector<Refused>& cases)
     CHECK_THAT(refusal(extension, refused.contents), Catch::Contains(refused.message));
   }
 }
-
-template <typename T>
-void append(std::string& bytes, T number, std::endian order = std::endian::little) {
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), &number, sizeof(T));
-  if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
-  bytes.append(raw.data(), raw.size());
-}
-
-const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";  // 3 lines of OBJ
-const Polygons kOneTriangle = {{0, 1, 2}};
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "libvox/io/read_report.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/pipeline/convert.h"
+#include "tests/mesh_files.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -25,7 +26,7 @@ using Catch::StartsWith;
 namespace read_oddities {  // names of its own: see tests/CMakeLists.txt
 namespace {
 
-using Polygons = std::vector<std::vector<Index>>;
+using namespace vox::test;
 
 struct Read {
   PolygonMesh mesh;
@@ -36,13 +37,6 @@ Read read(const std::string& file, std::string_view content) {
   Read all;
   all.mesh = parseMesh(file, content, all.report);
   return all;
-}
-
-Polygons polygonsOf(const PolygonMesh& mesh) {
-  Polygons polygons;
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-    polygons.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
-  return polygons;
 }
 
 std::string refusal(const std::string& file, std::string_view content) {
@@ -67,16 +61,6 @@ void checkColors(const std::vector<Vec3f>& colors, const std::vector<Vec3f>& exp
   }
 }
 
-template <typename T>
-void append(std::string& bytes, T number, std::endian order = std::endian::little) {
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), &number, sizeof(T));
-  if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
-  bytes.append(raw.data(), raw.size());
-}
-
-const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";  // 3 lines of OBJ
-const Polygons kOneTriangle = {{0, 1, 2}};
 const std::string kOffPoints = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 }  // namespace

@@ -9,6 +9,11 @@
 
 namespace vox {
 
+/// Factor from parameters at a corner of a cell at a crease to those a little farther in. In the
+/// corner a derivative is 0, and the product of rounding errors has any direction; beside it there
+/// is a normal.
+inline constexpr float kBesideCorner = 1 - 1.0F / 1024;
+
 inline constexpr int kBinLog2 = 5;
 inline constexpr int kBinSide = 1 << kBinLog2;  ///< voxels
 

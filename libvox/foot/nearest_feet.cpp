@@ -90,8 +90,7 @@ const Float3& polygonNormal(const TriangleCell& cell, const std::array<float, 3>
 Float3 normalAt(const FootBins& bins, const FootPlace& at) {
   if (at.cell->kind == CellKind::kNewton) {
     const NewtonCell& cell = bins.newton(*at.cell);
-    // In a corner at a crease rounding errors have a normal, too (scan_cell).
-    const float in = cell.creaseBias == 0 ? 1 : 1 - 1.0F / 1024;
+    const float in = cell.creaseBias == 0 ? 1 : kBesideCorner;
     const Float3 normal = Jet(cell.surface, in * at.a, in * at.b).normal();
     // At a corner where two sides are parallel, the surface near it has the normal.
     constexpr float kNear = 0.9F;

@@ -24,11 +24,9 @@ RibbonPoint pointAt(const LimitPiece& piece, double u, double v) {
   return {u, v, point, normal};
 }
 
-/// The normals a little farther in. In a corner at a crease a derivative is 0, and the product of
-/// rounding errors has any direction.
+/// The normals a little farther in (kBesideCorner).
 void takeInnerNormals(const LimitPiece& piece, std::vector<RibbonPoint>& points) {
-  constexpr double kIn = 1 - 1.0 / 1024;
-  const auto farther = [](double p) { return 0.5 + kIn * (p - 0.5); };
+  const auto farther = [](double p) { return 0.5 + kBesideCorner * (p - 0.5); };
   for (RibbonPoint& point : points)
     point.normal = pointAt(piece, farther(point.u), farther(point.v)).normal;
 }

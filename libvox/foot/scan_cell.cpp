@@ -42,12 +42,11 @@ HWY_INLINE V squareDistance(const Biquadratic& surface, const V3& x, V a, V b) {
   return dot3(r, r);
 }
 
-/// A normal at a, b, of any length. In a corner at a crease a derivative is 0, and the product of
-/// rounding errors has any direction. So in cells at creases it is the normal a little farther in.
+/// A normal at a, b, of any length; in cells at creases the one a little farther in.
 /// @param jet  at a, b
 HWY_INLINE V3 normalAt(const NewtonCell& cell, V a, V b, const JetV& jet) {
   if (cell.creaseBias == 0) return cross3(jet.sa, jet.sb);
-  const V in = set(1 - 1.0F / 1024);
+  const V in = set(kBesideCorner);
   JetV inner;
   jetAt(cell.surface, hn::Mul(in, a), hn::Mul(in, b), inner);
   return cross3(inner.sa, inner.sb);

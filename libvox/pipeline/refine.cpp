@@ -309,6 +309,7 @@ void requireValidScene(const Scene& scene) {
 }
 
 Box keptBox(const Scene& scene, const SceneObject& object, const ObjectPreparation& preparation) {
+  if (preparation.dropComponents.dropsNothing()) return usedBox(object.mesh);
   return namingObject(scene, object, [&] {
     DebrisReport unused;
     return usedBox(keptMeshOf(object, preparation, unused));
