@@ -435,3 +435,34 @@ TEST_CASE("a sharp tube far thinner than a voxel has few voxels", "[crease][leve
   const Conversion conversion = convert(test::oneObject(tube), options);
   for (const auto& grid : conversion.grids) CHECK(grid->activeVoxelCount() < 1000);
 }
+
+TEST_CASE("an L with sharp edges is that L, whatever the length of its legs", "[crease][solid]") {
+  for (const double leg : {1.1, 1.5, 3.0}) {
+    PolygonMesh profile;
+    for (const double z : {0.0, 1.0})
+      for (const auto& [x, y] :
+           {std::pair(0.0, 0.0), {leg, 0.0}, {leg, 1.0}, {1.0, 1.0}, {1.0, leg}, {0.0, leg}})
+        profile.points.push_back({x, y, z});
+    profile.addFace(std::array<Index, 6>{5, 4, 3, 2, 1, 0});
+    profile.addFace(std::array<Index, 6>{6, 7, 8, 9, 10, 11});
+    for (Index i = 0; i < 6; ++i) {
+      const Index next = (i + 1) % 6;
+      profile.addFace(std::array<Index, 4>{i, next, next + 6, i + 6});
+    }
+    ConvertOptions options;
+    options.voxelSize = leg / 41;
+    options.grids = std::vector{GridKind::kSurface};
+    options.smoothing.crease = CreaseRule{.degrees = 40.0};
+    const Conversion sharp = convert(test::oneObject(profile), options);
+    options.smoothing.crease = {};
+    options.until = StopRule{.levels = 0};
+    const Conversion flat = convert(test::oneObject(profile), options);
+    const auto treeOf = [](const Conversion& conversion) -> const openvdb::FloatTree& {
+      return dynamic_cast<const openvdb::FloatGrid&>(*conversion.grids.at(0)).tree();
+    };
+    double most = 0;
+    for (auto voxel = treeOf(flat).cbeginValueOn(); voxel; ++voxel)
+      most = std::max(most, std::abs(double{*voxel} - treeOf(sharp).getValue(voxel.getCoord())));
+    CHECK(most / *options.voxelSize < 0.01);
+  }
+}

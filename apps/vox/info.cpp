@@ -174,6 +174,7 @@ Json describe(const Scene& scene, std::size_t number, const ObjectPreparation& p
   RepairOptions options;
   options.weldTolerance = preparation.weldTolerance;
   options.faces = preparation.faces;
+  options.allConvex = preparation.mayCrease();
   const ComponentLimit& limit = preparation.dropComponents;
   options.noteUnused = limit.dropsNothing();
   DebrisReport debris;

@@ -13,4 +13,8 @@ namespace vox {
 /// Convex polygons are star-shaped. Cost O(n).
 bool isStarShaped(std::span<const Vec3d> corners);
 
+/// Whether a polygon is star-shaped and turns counter-clockwise at each corner, seen along its area
+/// vector and with the same tolerance. Cost O(n).
+bool isConvex(std::span<const Vec3d> corners);
+
 }  // namespace vox

@@ -59,6 +59,7 @@ RepairOptions repairOptionsOf(const ObjectPreparation& preparation) {
   RepairOptions repair;
   repair.weldTolerance = preparation.weldTolerance;
   repair.faces = preparation.faces;
+  repair.allConvex = preparation.mayCrease();
   repair.noteUnused = preparation.dropComponents.dropsNothing();  // dropped faces leave vertices
   return repair;
 }

@@ -133,8 +133,8 @@ void dropDuplicates(Draft& draft, RepairReport& report) {
   draft.faceOrigin = std::move(faceOrigin);
 }
 
-/// For each face, whether it is to be split: it is not star-shaped. Parallel.
-std::vector<std::uint8_t> concaveFaces(const PolygonMesh& mesh) {
+/// For each face, whether it is to be split: it is not star-shaped, or not convex. Parallel.
+std::vector<std::uint8_t> concaveFaces(const PolygonMesh& mesh, bool allConvex) {
   constexpr Index kTestsPerTask = 2048;
   std::vector<std::uint8_t> concave(mesh.faceCount());
   parallelForEach(mesh.faceCount(), kTestsPerTask, [&](Index f) {
@@ -143,14 +143,14 @@ std::vector<std::uint8_t> concaveFaces(const PolygonMesh& mesh) {
     canonicalize(face);  // sums of other orders might decide otherwise
     std::vector<Vec3d> corners;
     for (const Index v : face) corners.push_back(mesh.points[v]);
-    concave[f] = !isStarShaped(corners);
+    concave[f] = !(allConvex ? isConvex(corners) : isStarShaped(corners));
   });
   return concave;
 }
 
 /// @return whether there were concave faces
-bool splitConcaveFaces(Draft& draft, RepairReport& report) {
-  const std::vector<std::uint8_t> concave = concaveFaces(draft.mesh);
+bool splitConcaveFaces(Draft& draft, bool allConvex, RepairReport& report) {
+  const std::vector<std::uint8_t> concave = concaveFaces(draft.mesh, allConvex);
   if (std::find(concave.begin(), concave.end(), 1) == concave.end()) return false;
   PolygonMesh split;
   std::vector<Index> faceOrigin;
@@ -290,7 +290,7 @@ void makeManifold(Draft& draft, const RepairOptions& options, RepairReport& repo
   Joints sheets = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
   if (options.weld) sheets = stitch(draft, std::move(sheets), options.weldTolerance, report);
   for (int round = 0; round < kMostRounds; ++round) {
-    if (options.faces == FaceRule::kSplit && splitConcaveFaces(draft, report)) {
+    if (options.faces == FaceRule::kSplit && splitConcaveFaces(draft, options.allConvex, report)) {
       dropDuplicates(draft, report);
       sheets = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
     }

@@ -19,6 +19,9 @@ struct RepairOptions {
   /// repair, whose copies lie at the same place as their originals.
   bool weld = true;
   FaceRule faces = FaceRule::kSplit;  ///< whether concave faces are split
+  /// Whether star-shaped faces are split, too, if they are not convex. Needed at sharp edges: there
+  /// the image of a corner may lie outside of a notch.
+  bool allConvex = false;
   /// Whether vertices that no face of the input uses are noted in the report. They are removed.
   bool noteUnused = true;
 };

@@ -17,12 +17,22 @@ Vec3d fourthCorner(const Vec3d& centroid, const Vec3d& a, const Vec3d& b, const 
   return 4.0 * centroid - a - b - c;
 }
 
+/// How much a shift along the surface counts as an error. Corners of a face may end at different
+/// levels, and then their pieces leave a gap as wide as the shift. Beside flat faces with sharp
+/// edges only the gap itself tells; elsewhere it stays below what cells cover, as measured.
+double alongWeightOf(const SubdivisionLevel& base) {
+  constexpr double kWeight = 0.15;
+  return base.seam.empty() ? 0 : kWeight;
+}
+
 /// Bound of the distance, along the normal, between the surface and a piece that treats a face as a
 /// quad. It follows from how much the next vertex in the face differs from the one in the quad.
 /// @param inF    whether the face is the one at u = v = 1, else the one at u = v = 0
 /// @param image  the next vertex in the face
 /// @param faceSize  of the face
-double errorAsQuad(const Patch& patch, bool inF, const Vec3d& image, std::size_t faceSize) {
+/// @param weightAlong  of a shift along the surface (alongWeightOf)
+double errorAsQuad(const Patch& patch, bool inF, const Vec3d& image, std::size_t faceSize,
+                   double weightAlong) {
   // Differences fall by 4 from level to level around small faces, by 2 around large ones.
   constexpr std::size_t kLarge = 7;
   const double perDifference = faceSize < kLarge ? 0.6 : 2;
@@ -42,7 +52,7 @@ double errorAsQuad(const Patch& patch, bool inF, const Vec3d& image, std::size_t
     for (const std::size_t v : {0U, 1U})
       largest =
           std::max(largest, along((p[u + 1][v + 1] - p[u][v]).cross(p[u][v + 1] - p[u + 1][v])));
-  return perDifference * largest;
+  return perDifference * std::max(largest, weightAlong * difference.norm());
 }
 
 /// Emits the piece of a regular vertex. If faces around the vertex are missing: the curves between
@@ -81,8 +91,8 @@ void emitPiece(const Patch& patch, std::uint8_t sides, const CornerSquare& squar
 class Pieces {
  public:
   /// @param sides  of the square of the vertex that lie on the boundary of the surface
-  Pieces(std::uint8_t sides, double tolerance, LimitSink& sink)
-      : sides_(sides), tolerance_(tolerance), sink_(sink) {}
+  Pieces(std::uint8_t sides, double tolerance, double weightAlong, LimitSink& sink)
+      : sides_(sides), tolerance_(tolerance), weightAlong_(weightAlong), sink_(sink) {}
 
   void regular(const Patch& patch, int /*level*/, const CornerSquare& square) {
     emitPiece(patch, sidesOf(square), square, sink_);
@@ -92,8 +102,8 @@ class Pieces {
     Patch patch = corner.around;
     auto& p = patch.points;
     p[2][2] = fourthCorner(corner.face.shape(level).centroid, p[1][1], p[2][1], p[1][2]);
-    if (errorAsQuad(patch, true, corner.face.corners(level + 1)[corner.place], corner.face.size()) >
-        tolerance_)
+    if (errorAsQuad(patch, true, corner.face.corners(level + 1)[corner.place], corner.face.size(),
+                    weightAlong_) > tolerance_)
       return false;
     regular(patch, level, square);
     return true;
@@ -125,6 +135,7 @@ class Pieces {
 
   std::uint8_t sides_;
   double tolerance_;
+  double weightAlong_;
   LimitSink& sink_;
 };
 
@@ -139,7 +150,8 @@ void LimitWalk::emit(std::span<const Index> faces, LimitSink& sink) {
 
 void LimitWalk::emitVertex(const SubmeshCorner& at, LimitSink& sink) {
   const LevelOneVertex vertex = vertices_.at(at);
-  Pieces pieces(boundarySidesAt(at), tolerance_, sink);
+  const double weightAlong = alongWeightOf(base());
+  Pieces pieces(boundarySidesAt(at), tolerance_, weightAlong, sink);
   const CornerSquare square{at.number};
   if (vertex.regular) return pieces.regular(vertex.around, 1, square);
 
@@ -152,7 +164,7 @@ void LimitWalk::emitVertex(const SubmeshCorner& at, LimitSink& sink) {
   if (!quadVFace)
     p[0][0] = fourthCorner(vertex.vFace->shape(1).centroid, p[1][1], p[0][1], p[1][0]);
   const auto near = [&](bool inF, FaceLevels& face, std::size_t place) {
-    return errorAsQuad(patch, inF, face.corners(2)[place], face.size()) <= tolerance_;
+    return errorAsQuad(patch, inF, face.corners(2)[place], face.size(), weightAlong) <= tolerance_;
   };
   if (!vertex.triangle && (quadF || near(true, *vertex.face, vertex.place)) &&
       (quadVFace || near(false, *vertex.vFace, vertex.placeInVFace)))
