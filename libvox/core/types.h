@@ -7,8 +7,10 @@
 
 namespace vox {
 
+using Vec2d = Eigen::Vector2d;
 using Vec3d = Eigen::Vector3d;
 using Vec3f = Eigen::Vector3f;
+using Vec4f = Eigen::Vector4f;
 
 /// Index of a point, face or corner. Meshes hold fewer than 2^32 - 1 of each.
 using Index = std::uint32_t;

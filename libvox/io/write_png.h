@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/io/image.h"
+#include "libvox/core/image.h"
 
 #include <iosfwd>
 

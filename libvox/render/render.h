@@ -1,7 +1,7 @@
 #pragma once
 
+#include "libvox/core/image.h"
 #include "libvox/grid/openvdb_fwd.h"
-#include "libvox/io/image.h"
 #include "libvox/render/camera.h"
 #include "libvox/render/shading_options.h"
 #include "libvox/render/visible_options.h"
