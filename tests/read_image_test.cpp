@@ -335,12 +335,12 @@ TEST_CASE("refusals of images say what is wrong and what to do", "[io][image][er
        "the image is damaged: it claims 10000 x 10000 pixels, but the file has 33 bytes"},
       {header(9, 9, 7, kRgb), "the PNG is damaged: "},
       {jpeg.substr(0, jpeg.size() / 2),
-       "the JPEG is damaged: the file is cut short; save it again"},
+       "the JPEG cannot be read: the file is cut short; save it again, or as PNG"},
       {jpegOf({JCS_CMYK, 4}), "the JPEG has CMYK colours; convert it to RGB"},
       {jpegOf({JCS_UNKNOWN, 2}), "the JPEG has 2 channels; convert it to RGB"},
       {jpegOf({JCS_RGB, 3, false, true}),
        "JPEG with arithmetic coding is not read; convert it to PNG"},
-      {"\xFF\xD8\xFF"s, "the JPEG is damaged: "},
+      {"\xFF\xD8\xFF"s, "the JPEG cannot be read: "},
       {"GIF89a...", "images in GIF format are not read; convert it to PNG"},
       {"RIFF\1\2\3\4WEBPVP8 ", "images in WebP format"},
       {"II*\0...."s, "images in TIFF format"},
@@ -363,8 +363,10 @@ TEST_CASE("a JPEG that claims more pixels than its bytes hold is refused", "[io]
   const std::size_t frame = jpeg.find("\xFF\xC0"s);  // then its length, its depth, height and width
   REQUIRE(frame != jpeg.npos);
   const auto claim = [&](const std::string& sides) { return jpeg.replace(frame + 5, 4, sides); };
+  CHECK_THAT(imageRefusal(claim("\xFF\xDC\xFF\xDC")),
+             Catch::Contains("65500 pixels, more than 2^28"));
   CHECK_THAT(imageRefusal(claim("\xFF\xFF\xFF\xFF")),
-             Catch::Contains("65535 pixels, more than 2^28"));
+             Catch::Contains("65500 pixels; save it again"));
   CHECK_THAT(imageRefusal(claim("\x20\0\x40\0"s)),
              Catch::Contains("it claims 16384 x 8192 pixels, but the file has"));
 }

@@ -48,7 +48,8 @@ class JpegReader {
   ClaimedSize claimedSize() const;
   bool readRows(Pixel* pixels);
   [[noreturn]] void refuse() const {
-    throw InputError(name_ + ": the JPEG is damaged: " + message_ + "; save it again");
+    throw InputError(name_ + ": the JPEG cannot be read: " + message_ +
+                     "; save it again, or as PNG");
   }
 
   [[noreturn]] void jump(const char* message) {
