@@ -143,6 +143,7 @@ struct Jpeg {
   int channels = 3;
   bool progressive = false;
   bool arithmetic = false;
+  std::vector<jpeg_scan_info> scans = {};  ///< empty: those of the library
 };
 
 /// Grey value or colour of a smooth picture.
@@ -168,7 +169,11 @@ std::string jpegOf(const Jpeg& kind, int width = kWide, int height = kHigh) {
   jpeg_set_defaults(&jpeg);
   jpeg_set_quality(&jpeg, 95, TRUE);
   jpeg.arith_code = kind.arithmetic ? TRUE : FALSE;
-  if (kind.progressive) jpeg_simple_progression(&jpeg);
+  if (kind.progressive && kind.scans.empty()) jpeg_simple_progression(&jpeg);
+  if (!kind.scans.empty()) {
+    jpeg.scan_info = kind.scans.data();
+    jpeg.num_scans = static_cast<int>(kind.scans.size());
+  }
   jpeg_start_compress(&jpeg, TRUE);
   for (int y = 0; y < height; ++y) {
     std::vector<JSAMPLE> row;
@@ -369,6 +374,16 @@ TEST_CASE("a JPEG that claims more pixels than its bytes hold is refused", "[io]
              Catch::Contains("65500 pixels; save it again"));
   CHECK_THAT(imageRefusal(claim("\x20\0\x40\0"s)),
              Catch::Contains("it claims 16384 x 8192 pixels, but the file has"));
+}
+
+TEST_CASE("a JPEG of more scans than programs write is refused", "[io][image][error]") {
+  std::vector<jpeg_scan_info> scans = {{1, {0}, 0, 0, 0, 0}};
+  const int bits = GENERATE(1, 3);  // each of 63 coefficients comes bit by bit
+  for (int bit = bits; bit >= 0; --bit)
+    for (int n = 1; n < 64; ++n) scans.push_back({1, {0}, n, n, bit == bits ? 0 : bit + 1, bit});
+  const std::string refused = imageRefusal(jpegOf({JCS_GRAYSCALE, 1, true, false, scans}));
+  CHECK_THAT(refused,
+             Catch::Contains(scans.size() > 200 ? "it has more than 200 scans" : "accepted"));
 }
 
 TEST_CASE("the least sizes of files that images claim are below those of real files",

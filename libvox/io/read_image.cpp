@@ -8,7 +8,7 @@
 #include "libvox/io/input_file.h"
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <iterator>
 
 namespace vox {

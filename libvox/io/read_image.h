@@ -2,6 +2,7 @@
 
 #include "libvox/core/image.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>

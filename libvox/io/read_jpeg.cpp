@@ -6,9 +6,9 @@
 #include "libvox/core/error.h"
 #include "libvox/io/image_formats.h"
 
-#include <algorithm>
 #include <csetjmp>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <jerror.h>
 #include <jpeglib.h>

@@ -7,6 +7,8 @@
 #include "libvox/io/image_formats.h"
 
 #include <csetjmp>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <new>

@@ -5,6 +5,7 @@
 #include "libvox/core/color.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>

@@ -4,7 +4,6 @@
 #include "libvox/core/types.h"
 #include "libvox/mesh/material.h"
 
-#include <array>
 #include <memory>
 
 namespace vox {
