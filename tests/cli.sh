@@ -97,6 +97,14 @@ expect 2 'dim' convert good.obj -o out.vdb --dim many
 expect 2 'voxel-size' convert good.obj -o out.vdb --voxel-size -1
 expect 2 'voxel-size' convert good.obj -o out.vdb --voxel-size 0
 expect 2 'voxel-size.*dim|dim.*voxel-size' convert good.obj -o out.vdb --voxel-size 1 --dim 3
+expect 2 'bounds.*x0,y0,z0' convert good.obj -o out.vdb --bounds 0,0,0,1,1
+expect 2 'bounds.*six numbers' convert good.obj -o out.vdb --bounds 0,0,0,1,1,nan
+expect 2 'bounds.*low one first' convert good.obj -o out.vdb --bounds 0,0,0,1,-1,1
+expect 2 'clip needs --like' convert good.obj -o out.vdb --clip
+expect 2 'like.*dim|dim.*like' convert good.obj -o out.vdb --dim 3 --like good.vdb
+expect 2 'like.*voxel-size|voxel-size.*like' convert good.obj -o out.vdb --voxel-size 3 --like good.vdb
+expect 3 'missing.vdb:density: no such file' convert good.obj -o out.vdb --like missing.vdb:density
+expect 3 'good.obj: is not an OpenVDB file' convert good.obj -o out.vdb --like good.obj
 expect 2 'unknown grid .fog.' convert good.obj -o out.vdb --grids fog
 expect 2 'unknown option --dims; did you mean --dim?' convert good.obj -o out.vdb --dims 3
 expect 2 'unknown option --voxelsize; did you mean --voxel-size?' convert good.obj -o out.vdb --voxelsize=1
@@ -377,6 +385,33 @@ for frame in 7 8 10; do
   awk -v s="$frame" '$1 == "v" {print "v", $2 * s, $3 * s, $4 * s; next} {print}' "$scenes/cube.obj" \
     >"frames/c.00$(printf %02d "$frame").obj"
 done
+
+# Lattices of other files, and crops.
+expect 0 '' convert "$scenes/torus.obj" -o reference_lattice.vdb --dim 40
+expect 0 '' convert "$scenes/cube.obj" -o like.vdb --like reference_lattice.vdb
+"$vox" info --json reference_lattice.vdb like.vdb >info.json
+python3 - <<'PY' || fail "--like"
+import json
+a, b = [file["grids"][0] for file in json.load(open("info.json"))]
+assert a["voxel_size"] == b["voxel_size"] and a["origin"] == b["origin"], (a, b)
+assert "dim=" not in b["metadata"]["vox_options"], b
+PY
+expect 3 "reference_lattice.vdb: has no grid 'fog'; it has density" convert good.obj -o no.vdb --like reference_lattice.vdb:fog
+expect 0 '' check like.vdb --mesh "$scenes/cube.obj" --quiet
+expect 0 '' convert "$scenes/cube.obj" -o clip.vdb --like reference_lattice.vdb:density --clip
+expect 0 '' convert "$scenes/torus.obj" -o part.vdb --dim 40 --bounds=-9,-9,-9,0.1,9,9
+expect 3 'was cropped' check part.vdb --mesh "$scenes/torus.obj"
+expect 2 'verify needs the whole' convert "$scenes/torus.obj" -o no.vdb --verify --bounds 0,0,0,1,1,1
+expect 0 '' convert "$scenes/torus.obj" -o none.vdb --bounds 90,90,90,99,99,99
+grep -q 'warning: no active voxel lies in the box' stderr || fail "no warning of an empty box"
+expect 0 '' convert "$scenes/torus.obj" --dim 40 --bounds=-9,-9,-9,0.1,9,9 --dry-run
+printf 'convert = {dim = 40, bounds = [-9, -9, -9, 0.1, 9, 9]}\n[[object]]\nmesh = "%s"\n' \
+  "$scenes/torus.obj" >part.toml
+expect 0 '' convert part.toml -o scene_part.vdb
+expect 0 '' diff part.vdb scene_part.vdb --no-metadata
+printf 'convert = {bounds = [0, 0, 0, 1, 1]}\n[[object]]\nmesh = "good.obj"\n' >five.toml
+expect 3 'five.toml:1:.*six numbers' convert five.toml -o no.vdb
+
 expect 0 '' convert 'frames/c.####.obj' -o 'frames/c.####.vdb' --dim 40
 "$vox" info --json frames/c.0007.vdb frames/c.0008.vdb frames/c.0010.vdb >info.json
 python3 - <<'PY' || fail "a sequence"

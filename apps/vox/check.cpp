@@ -163,6 +163,10 @@ void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
   if (!grid.transform().isLinear() || !grid.hasUniformVoxels())
     throw InputError(options.file + ": a mesh can be held against voxels that are cubes only");
   const ConvertOptions made = optionsOfFile(grid, options);
+  if (made.bounds || made.clip)
+    throw InputError(
+        options.file +
+        ": was cropped (--bounds, --clip): a mesh can be held against whole grids only");
   const Scene scene = readScene(options.mesh, made.scale);
   check.objects = checkObjects(voxels, scene, resolve(scene, made), grid.voxelSize().x());
   for (const ObjectCheck& object : check.objects)

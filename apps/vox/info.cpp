@@ -16,6 +16,7 @@
 #include "libvox/prepare/sound.h"
 
 #include <algorithm>
+#include <array>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -119,6 +120,7 @@ Json toJson(const GridSummary& grid) {
           {"low", grid.low},
           {"high", grid.high},
           {"voxel_size", grid.voxelSize},
+          {"origin", grid.origin},
           {"metadata", grid.metadata}};
 }
 
@@ -240,6 +242,9 @@ void print(const GridSummary& grid) {
               << grid.high[2] << ")\n";
   std::cout << "    voxel size        " << grid.voxelSize[0] << ' ' << grid.voxelSize[1] << ' '
             << grid.voxelSize[2] << '\n';
+  if (grid.origin != std::array<double, 3>{})
+    std::cout << "    voxel (0 0 0) at  " << grid.origin[0] << ' ' << grid.origin[1] << ' '
+              << grid.origin[2] << '\n';
   for (const auto& [key, value] : grid.metadata)
     if (key.starts_with("vox_"))
       std::cout << "    " << std::left << std::setw(18) << key << value << '\n';

@@ -5,10 +5,13 @@
 #include "libvox/core/error.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/read_indices.h"
+#include "libvox/io/read_lattice.h"
 #include "libvox/options/voxelize.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -97,11 +100,33 @@ void addResolutionOptions(const Command& command, ResolutionOptions& resolution)
           .range(1, std::numeric_limits<int>::max())
           .type("N")
           .group("Resolution");
+  const Option size = command
+                          .add("--voxel-size", resolution.voxelSize,
+                               "Edge length of a voxel in world units, instead of --dim")
+                          .excludes(dim)
+                          .type("S")
+                          .group("Resolution");
   command
-      .add("--voxel-size", resolution.voxelSize,
-           "Edge length of a voxel in world units, instead of --dim")
+      .add(
+          "--like", resolution.like,
+          "Take voxel size and place of the voxels from the first grid of a file, or from the grid "
+          "NAME, instead of --dim or --voxel-size, also those of a scene: then the voxels of both "
+          "outputs coincide")
       .excludes(dim)
-      .type("S")
+      .excludes(size)
+      .type("REF.vdb[:NAME]")
+      .group("Resolution");
+  command
+      .addFlag("--clip", resolution.clip,
+               "Make only voxels in the box of the active voxels of the grid of --like")
+      .group("Resolution");
+  command
+      .add("--bounds", resolution.bounds,
+           "Make only voxels whose centres lie in a box. Its corners are in world units of the "
+           "input "
+           "(after --scale, before --up turns it). --dim still counts along the whole input "
+           "(default: the scene's, or no box)")
+      .type("X0,Y0,Z0,X1,Y1,Z1")
       .group("Resolution");
 }
 
@@ -402,11 +427,45 @@ SurfaceOptions parseSubmeshes(const SubmeshArguments& arguments) {
   return surface;
 }
 
+namespace {
+
+/// "x0,y0,z0,x1,y1,z1".
+std::array<double, 6> parseBounds(const std::string& text) {
+  std::array<double, 6> bounds{};
+  std::size_t count = 0;
+  bool isRead = true;
+  std::istringstream list(text + ",");
+  for (std::string word; isRead && std::getline(list, word, ',');) {
+    const char* const end = word.data() + word.size();
+    double number = 0;
+    const auto [rest, error] = std::from_chars(word.data(), end, number);
+    isRead = error == std::errc() && rest == end && std::isfinite(number) && count < bounds.size();
+    if (isRead) bounds[count++] = number;
+  }
+  if (!isRead || count != bounds.size())
+    throw UsageError("--bounds must be six numbers, x0,y0,z0,x1,y1,z1, not '" + text + "'");
+  return bounds;
+}
+
+void applyResolution(const ResolutionOptions& resolution, ConvertOptions& parsed) {
+  parsed.dim = resolution.dim;
+  parsed.voxelSize = resolution.voxelSize;
+  if (!resolution.bounds.empty()) parsed.bounds = parseBounds(resolution.bounds);
+  if (resolution.clip && resolution.like.empty())
+    throw UsageError("--clip needs --like: the file whose extent it takes");
+  if (resolution.like.empty()) return;
+  const FileLattice lattice = readLattice(resolution.like, resolution.clip);
+  parsed.voxelSize = lattice.voxelSize;
+  parsed.origin = lattice.origin;
+  parsed.clip = lattice.activeBox;
+}
+
+}  // namespace
+
 ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOptions& run) {
   ConvertOptions parsed;
   parsed.scale = arguments.scale;
-  parsed.dim = arguments.resolution.dim;
-  parsed.voxelSize = arguments.resolution.voxelSize;
+  applyResolution(arguments.resolution, parsed);
   parsed.smoothing = parseSmoothing(arguments.smoothing);
   parsed.until = parseUntil(arguments.voxelization);
   parsed.voxelize = parseNamed("--voxelize", kVoxelizeNames, arguments.voxelization.voxelize);

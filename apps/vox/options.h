@@ -22,10 +22,13 @@ void addCommonOptions(const Command& command, CommonOptions& common);
 /// --threads and --max-memory.
 void addRunOptions(const Command& command, RunOptions& run);
 
-/// --dim and --voxel-size.
+/// --dim, --voxel-size, --like, --clip and --bounds, as typed.
 struct ResolutionOptions {
   std::optional<int> dim;
   std::optional<double> voxelSize;
+  std::string like;
+  bool clip = false;
+  std::string bounds;
 };
 void addResolutionOptions(const Command& command, ResolutionOptions& resolution);
 

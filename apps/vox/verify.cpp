@@ -87,8 +87,7 @@ std::vector<ObjectCheck> checkObjects(const openvdb::MaskTree& voxels, const Sce
   Progress unwatched;
   Progress& progress = request.run.progress != nullptr ? *request.run.progress : unwatched;
   const MemoryBudget budget(request.run.maxMemory);
-  GridTransform transform = transformForVoxelSize(voxelSize);
-  transform.turn = request.turn;
+  const GridTransform transform = placedFor(request, transformForVoxelSize(voxelSize));
   std::vector<ObjectCheck> checks;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     checks.push_back(
@@ -99,6 +98,8 @@ std::vector<ObjectCheck> checkObjects(const openvdb::MaskTree& voxels, const Sce
 }
 
 void verify(const Conversion& conversion, const Scene& scene, const Request& request) {
+  if (request.crops())
+    throw UsageError("--verify needs the whole surface: leave it out, or --bounds and --clip");
   openvdb::MaskTree::Ptr voxels;
   for (const auto& grid : conversion.grids) {
     for (const LintFinding& finding : lintGrid(*grid))

@@ -51,8 +51,10 @@ void ActiveVoxels::add(std::span<PageLeaf> leaves) {
     const auto others = std::partition(leaves.begin(), leaves.end(),
                                        [&](const PageLeaf& leaf) { return leaf.page == &page; });
     const tbb::spin_mutex::scoped_lock lock(page.lock);
-    for (const PageLeaf& leaf : leaves.first(static_cast<std::size_t>(others - leaves.begin())))
-      addToPage(page, leaf.origin, leaf.words);
+    for (const PageLeaf& leaf : leaves.first(static_cast<std::size_t>(others - leaves.begin()))) {
+      const LeafWords words = region_.within(leaf.words, leaf.origin);
+      if (region_.isAll() || words != LeafWords{}) addToPage(page, leaf.origin, words);
+    }
     leaves = leaves.subspan(static_cast<std::size_t>(others - leaves.begin()));
   }
 }

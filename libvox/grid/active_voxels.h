@@ -4,6 +4,7 @@
 #include "libvox/core/types.h"
 #include "libvox/grid/merge_leaf.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/grid/region.h"
 
 #include <tbb/concurrent_unordered_map.h>
 #include <tbb/concurrent_unordered_set.h>
@@ -22,7 +23,9 @@ namespace vox {
 class ActiveVoxels {
  public:
   /// @param memoryLimit  bytes that the nodes may take; 0: no limit
-  explicit ActiveVoxels(std::uint64_t memoryLimit = 0) : memoryLimit_(memoryLimit) {}
+  /// @param region       voxels outside it are not switched on
+  explicit ActiveVoxels(std::uint64_t memoryLimit = 0, const Region& region = {})
+      : memoryLimit_(memoryLimit), region_(region) {}
   ~ActiveVoxels();
   ActiveVoxels(const ActiveVoxels&) = delete;
   ActiveVoxels& operator=(const ActiveVoxels&) = delete;
@@ -50,6 +53,8 @@ class ActiveVoxels {
   /// Switches on voxels of some leaves. Locks each page once; reorders the span. Thread-safe.
   /// @throws LimitError  the nodes would take more memory than the limit
   void add(std::span<PageLeaf> leaves);
+
+  const Region& region() const { return region_; }
 
   /// Changes the memory limit. Not thread-safe.
   void setMemoryLimit(std::uint64_t bytes) { memoryLimit_ = bytes; }
@@ -81,6 +86,7 @@ class ActiveVoxels {
   tbb::concurrent_unordered_set<openvdb::Coord, OriginHash>
       uppers_;  // origins of the upper nodes that the tree will need
   std::uint64_t memoryLimit_;
+  Region region_;
   std::atomic<std::uint64_t> memoryBytes_{0};
 };
 

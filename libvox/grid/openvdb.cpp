@@ -7,6 +7,7 @@ OPENVDB_USE_VERSION_NAMESPACE
 namespace OPENVDB_VERSION_NAME {
 
 template MaskGrid::Ptr Grid<MaskTree>::create(const bool&);
+template MaskGrid::Ptr Grid<MaskTree>::create(MaskTree::Ptr);
 
 }  // namespace OPENVDB_VERSION_NAME
 }  // namespace openvdb

@@ -65,9 +65,16 @@ GridTransform transformForVoxelSize(double voxelSize) {
 
 void requireInRange(const Box& boxWorld, const GridTransform& transform, const std::string& what) {
   if (boxWorld.empty()) return;
-  const double reach =
-      std::max(boxWorld.low.cwiseAbs().maxCoeff(), boxWorld.high.cwiseAbs().maxCoeff());
+  const auto farthest = [&](const Vec3d& p) {
+    return (turned(p, transform.turn) - transform.origin).cwiseAbs().maxCoeff();
+  };
+  const double reach = std::max(farthest(boxWorld.low), farthest(boxWorld.high));
   if (reach / transform.voxelSize < kMaxIndex) return;
+  if (!transform.origin.isZero(0))
+    throw LimitError(what + " reaches " + str(reach) +
+                     " world units from voxel (0, 0, 0) of the lattice, more than 2^30 voxels of "
+                     "size " +
+                     str(transform.voxelSize) + "; take the lattice of a file nearer to it");
   throw LimitError(what + " reaches " + str(reach) +
                    " world units from the origin, more than 2^30" + " voxels of size " +
                    str(transform.voxelSize) + "; use a voxel size of at least " +

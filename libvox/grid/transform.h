@@ -60,15 +60,18 @@ inline Turn inverse(Turn turn) {
 /// Blender, y in Houdini. No turn if `up` is empty.
 Turn turnFor(std::optional<UpAxis> up, Target target);
 
-/// Transform between world space and index space: index = turned(world) / voxelSize. Voxel
-/// (i, j, k) is the unit cube centred on (i, j, k) in index space. There is no offset, so voxels of
-/// grids with the same voxel size coincide.
+/// Transform between world space and index space: index = (turned(world) - origin) / voxelSize.
+/// Voxel (i, j, k) is the unit cube centred on (i, j, k) in index space. Unless another file gives
+/// the lattice, the origin is 0, so voxels of grids with the same voxel size coincide.
 struct GridTransform {
   double voxelSize = 1;  ///< world units, > 0
   Turn turn = Turn::kNoTurn;
+  Vec3d origin = Vec3d::Zero();  ///< centre of voxel (0, 0, 0) after the turn, world units
 
-  Vec3d toIndex(const Vec3d& world) const { return turned(world, turn) / voxelSize; }
-  Vec3d toWorld(const Vec3d& index) const { return turned(index, inverse(turn)) * voxelSize; }
+  Vec3d toIndex(const Vec3d& world) const { return (turned(world, turn) - origin) / voxelSize; }
+  Vec3d toWorld(const Vec3d& index) const {
+    return turned(index * voxelSize + origin, inverse(turn));
+  }
 };
 
 /// Bound of absolute index coordinates: half of OpenVDB's 32-bit range, so that neighbours and
@@ -92,7 +95,8 @@ GridTransform transformForVoxelSize(double voxelSize);
 
 /// Checks that the index coordinates of a box are below kMaxIndex.
 /// @param what  subject of the message
-/// @throws LimitError  they are not; the message names the smallest voxel size that works
+/// @throws LimitError  they are not; the message names the smallest voxel size that works, unless
+///   the lattice has an origin
 void requireInRange(const Box& boxWorld, const GridTransform& transform,
                     const std::string& what = "the input");
 

@@ -88,11 +88,13 @@ GridSummary summarizeGrid(const openvdb::GridBase& grid) {
   summary.memoryBytes = grid.memUsage();
   const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
   const openvdb::Vec3d size = grid.voxelSize();
+  const openvdb::Vec3d origin = grid.indexToWorld(openvdb::Coord(0, 0, 0));
   for (int axis = 0; axis < 3; ++axis) {
     const auto slot = static_cast<std::size_t>(axis);
     summary.low[slot] = box.min()[axis];
     summary.high[slot] = box.max()[axis];
     summary.voxelSize[slot] = size[axis];
+    summary.origin[slot] = origin[axis];
   }
   for (auto entry = grid.beginMeta(); entry != grid.endMeta(); ++entry)
     summary.metadata[entry->first] = entry->second->str();

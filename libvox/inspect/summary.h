@@ -50,6 +50,7 @@ struct GridSummary {
   std::array<int, 3> low{};   ///< bounding box of the active voxels, index space, inclusive;
   std::array<int, 3> high{};  ///< meaningless when there are none
   std::array<double, 3> voxelSize{};  ///< world units
+  std::array<double, 3> origin{};     ///< world position of the centre of voxel (0, 0, 0)
   std::map<std::string, std::string> metadata;
 };
 

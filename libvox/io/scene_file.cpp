@@ -9,6 +9,7 @@
 #include "libvox/io/scene_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -38,6 +39,20 @@ BandWidths readBand(const SceneText& text, const toml::node& node) {
   return {requireNumber(text, widths[0], "band"), requireNumber(text, widths[1], "band")};
 }
 
+/// "bounds": the low corner of a box, then the high one.
+std::array<double, 6> readBounds(const SceneText& text, const toml::node& node) {
+  std::array<double, 6> bounds{};
+  const toml::array& numbers = requireArray(text, node, "bounds");
+  if (numbers.size() != bounds.size())
+    text.fail(node, "bounds must be six numbers: [x0, y0, z0, x1, y1, z1]");
+  for (std::size_t i = 0; i < bounds.size(); ++i)
+    bounds[i] = requireNumber(text, numbers[i], "bounds");
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!(bounds[i] <= bounds[i + 3]))
+      text.fail(node, "bounds must have its low corner first: [x0, y0, z0, x1, y1, z1]");
+  return bounds;
+}
+
 VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table) {
   VolumeOptions volume;
   readNamed(text, table, "fill", kFillNames, volume.fill);
@@ -58,9 +73,10 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[convert]",
-                   {"dim", "voxel_size", "grids", "fill", "edge", "gain", "open_mesh", "close",
-                    "band", "tolerance", "half", "compression", "target", "up", "until", "voxelize",
-                    "weld", "drop_components", "strict"});
+                   {"dim",       "voxel_size", "bounds",      "grids",           "fill",
+                    "edge",      "gain",       "open_mesh",   "close",           "band",
+                    "tolerance", "half",       "compression", "target",          "up",
+                    "until",     "voxelize",   "weld",        "drop_components", "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -69,6 +85,7 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
     if (!(*scene.voxelSize > 0)) text.fail(*size, "voxel_size must be positive");
     if (scene.dim) text.fail(*size, "dim and voxel_size cannot both be given");
   }
+  if (const auto* bounds = table.get("bounds")) scene.bounds = readBounds(text, *bounds);
   if (const auto* grids = table.get("grids")) scene.grids = readGrids(text, *grids);
   scene.volume = readVolumeOptions(text, table);
   if (const auto* until = table.get("until")) scene.until = requireStopRule(text, *until);

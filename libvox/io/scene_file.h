@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -35,8 +36,9 @@ struct SceneObject {
 
 /// Objects to convert, and the options of the scene. Options without a value are not set.
 struct Scene {
-  std::optional<int> dim;           ///< [convert] dim: voxels along the longest side
-  std::optional<double> voxelSize;  ///< [convert] voxel_size: world units
+  std::optional<int> dim;                       ///< [convert] dim: voxels along the longest side
+  std::optional<double> voxelSize;              ///< [convert] voxel_size: world units
+  std::optional<std::array<double, 6>> bounds;  ///< [convert] bounds: as in ConvertOptions
   std::optional<std::vector<GridKind>> grids;
   std::optional<double> weldTolerance;                ///< [convert] weld: world units
   std::optional<ComponentLimit> dropComponents = {};  ///< [convert] drop_components

@@ -9,6 +9,7 @@
 #include "libvox/options/volume_options.h"
 #include "libvox/options/voxelize.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -22,7 +23,15 @@ struct ConvertOptions : PreparationOptions {
   /// Of the input; readScene has applied it. Grids record it, so that it can be applied again.
   std::optional<double> scale;
   std::optional<int> dim;  ///< voxels along the longest side of the input; default: kDefaultDim
-  std::optional<double> voxelSize;             ///< world units; overrides dim
+  std::optional<double> voxelSize;  ///< world units; overrides dim
+  /// World position of the centre of voxel (0, 0, 0) in the output, which a turn does not change.
+  /// Needs voxelSize. Default: 0; for blender-3.4: half a voxel less.
+  std::optional<std::array<double, 3>> origin;
+  /// Corners of a box, world units of the input before a turn: only voxels whose centres lie in it
+  /// are made. First the low corner.
+  std::optional<std::array<double, 6>> bounds;
+  /// The same by voxels: the lowest voxel, then the highest. Both apply.
+  std::optional<std::array<int, 6>> clip;
   std::optional<std::vector<GridKind>> grids;  ///< default: density
   std::optional<StopRule> until;               ///< default: voxel
   std::optional<Voxelize> voxelize;            ///< default: auto

@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -23,6 +24,9 @@ void forEachField(Options& options, Visit&& visit) {
   visit("scale", options.scale);
   visit("voxel-size", options.voxelSize);
   visit("dim", options.dim);
+  visit("origin", options.origin);
+  visit("bounds", options.bounds);
+  visit("clip", options.clip);
   visit("boundary", options.smoothing.boundary, kBoundaryRuleNames);
   visit("interpolate", options.smoothing.interpolate, kInterpolateNames);
   visit("interpolated-vertices", options.smoothing.interpolatedVertices);
@@ -71,6 +75,11 @@ class Writer {
   void write(const char* key, const std::vector<T>& list) {
     write(key, list.size());
   }
+  template <class Number, std::size_t N>
+  void write(const char* key, const std::array<Number, N>& numbers) {
+    write(key, numbers[0]);
+    for (std::size_t i = 1; i < N; ++i) text_ << ',' << numbers[i];
+  }
   void write(const char* key, const CreaseRule& rule) { write(key, creaseRuleName(rule)); }
   void write(const char* key, const BandWidths& band) {
     write(key, band.in);
@@ -89,17 +98,37 @@ class Writer {
   std::ostringstream text_;
 };
 
-/// A number of 0 or more: no option has a negative one.
 template <class Number>
-std::optional<Number> numberIn(std::string_view text) {
+std::optional<Number> anyNumberIn(std::string_view text) {
   Number number{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   if constexpr (std::is_floating_point_v<Number>)
     if (!std::isfinite(number)) return std::nullopt;
-  if constexpr (std::is_signed_v<Number>)
-    if (number < 0) return std::nullopt;
   return number;
+}
+
+/// A number of 0 or more, as most options have.
+template <class Number>
+std::optional<Number> numberIn(std::string_view text) {
+  const std::optional<Number> number = anyNumberIn<Number>(text);
+  if constexpr (std::is_signed_v<Number>)
+    if (number && *number < 0) return std::nullopt;
+  return number;
+}
+
+/// N numbers with commas between them.
+template <class Number, std::size_t N>
+std::optional<std::array<Number, N>> numbersIn(std::string_view text) {
+  std::array<Number, N> numbers{};
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::size_t comma = text.find(',');
+    const auto number = anyNumberIn<Number>(text.substr(0, comma));
+    if (!number || (comma == std::string_view::npos) != (i + 1 == N)) return std::nullopt;
+    numbers[i] = *number;
+    if (i + 1 < N) text.remove_prefix(comma + 1);
+  }
+  return numbers;
 }
 
 /// Reads one word into the field that has its key.
@@ -138,6 +167,10 @@ class Reader {
     if (!value_ || !numberIn<std::uint64_t>(*value_)) return false;
     recorded_.lists.emplace_back(key_);
     return true;
+  }
+  template <class Number, std::size_t N>
+  bool read(std::optional<std::array<Number, N>>& field) const {
+    return value_ && take(numbersIn<Number, N>(*value_), field);
   }
   bool read(std::optional<CreaseRule>& field) const {
     return value_ && take(creaseRuleNamed(*value_), field);

@@ -9,7 +9,9 @@
 #include "libvox/core/stopwatch.h"
 #include "libvox/core/version.h"
 #include "libvox/grid/active_voxels.h"
+#include "libvox/grid/crop.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/grid/region.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
@@ -22,6 +24,8 @@
 #include "libvox/pipeline/surface.h"
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
+
+#include <openvdb/tools/Prune.h>
 
 #include <algorithm>
 #include <numeric>
@@ -36,6 +40,60 @@ bool needsObjectsApart(const PreparedScene& prepared, std::span<const GridKind> 
          std::find(kinds.begin(), kinds.end(), GridKind::kColor) != kinds.end();
 }
 
+/// The transform of the output: that of the conversion in the axes of the grid.
+openvdb::math::Transform::Ptr transformOfFile(const Request& request,
+                                              const GridTransform& transform) {
+  using openvdb::math::Transform;
+  const double size = transform.voxelSize;
+  const bool isMoved = request.volume.target == Target::kBlender34;
+  const Vec3d origin =
+      request.resolution.origin.value_or(Vec3d::Constant(isMoved ? -size / 2 : 0.0));
+  const Transform::Ptr made = Transform::createLinearTransform(size);
+  if (!origin.isZero(0)) made->postTranslate(openvdb::Vec3d(origin.data()));
+  return made;
+}
+
+/// Soft values and the colours around them come from voxels up to this far away.
+constexpr int kMarginOfSoft = 4;  // voxels
+
+/// The voxels whose marks the grids of a region need: all where the marks tell the inside.
+Region regionOfMarks(const Request& request, const Region& region) {
+  if (needsInside(request.grids, request.volume)) return {};
+  return request.volume.edge == Edge::kSoft ? region.grown(kMarginOfSoft) : region;
+}
+
+/// Some voxels of a mask.
+openvdb::MaskGrid::Ptr cropped(const openvdb::MaskGrid& mask, const Region& region) {
+  auto voxels = std::make_shared<openvdb::MaskTree>(mask.tree());
+  crop(*voxels, region);
+  openvdb::tools::pruneInactive(*voxels);
+  auto grid = openvdb::MaskGrid::create(voxels);
+  grid->setTransform(mask.transform().copy());
+  return grid;
+}
+
+/// Crops a grid. A level set keeps the inner sides of nodes without active voxels.
+void cropGrid(openvdb::GridBase& grid, const Region& region) {
+  if (region.isAll()) return;
+  const auto cropTree = [&](auto& typed) {
+    crop(typed.tree(), region);
+    if (typed.getGridClass() == openvdb::GRID_LEVEL_SET)
+      openvdb::tools::prune(typed.tree());
+    else
+      openvdb::tools::pruneInactive(typed.tree());
+  };
+  using Kinds = openvdb::TypeList<openvdb::MaskGrid, openvdb::FloatGrid, openvdb::Vec3SGrid>;
+  grid.apply<Kinds>(cropTree);
+}
+
+/// Warns of a box that holds nothing.
+void warnOfEmpty(const Conversion& conversion, ConvertReport& report) {
+  if (std::all_of(conversion.grids.begin(), conversion.grids.end(),
+                  [](const auto& grid) { return grid->activeVoxelCount() == 0; }))
+    report.warnings.emplace_back(
+        "no active voxel lies in the box of --bounds or --clip: the grids are empty");
+}
+
 /// Switches on the voxels of a prepared scene, object by object.
 class SceneMarker {
  public:
@@ -47,7 +105,7 @@ class SceneMarker {
         prepared_(prepared),
         progress_(progress),
         report_(report),
-        grid_(prepared.budget.left()) {}
+        grid_(prepared.budget.left(), regionOfMarks(request, prepared.region)) {}
 
   /// @param corners  of the input
   void mark(std::size_t object, std::uint64_t corners) {
@@ -68,8 +126,7 @@ class SceneMarker {
   openvdb::MaskGrid::Ptr take() {
     prepared_.budget.take(grid_.memoryBytes(), "the grid", kScatteredAdvice);
     auto mask = openvdb::MaskGrid::create(apart_ ? all_ : grid_.takeTree());
-    mask->setTransform(
-        openvdb::math::Transform::createLinearTransform(prepared_.transform.voxelSize));
+    mask->setTransform(transformOfFile(request_, prepared_.transform));
     return mask;
   }
 
@@ -155,10 +212,18 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   if (!prepared.estimate.refusal.empty()) throw LimitError(prepared.estimate.refusal);
   const bool marks = needsVoxels(request.grids);
   openvdb::MaskGrid::Ptr mask = openvdb::MaskGrid::create();
-  mask->setTransform(openvdb::math::Transform::createLinearTransform(prepared.transform.voxelSize));
+  mask->setTransform(transformOfFile(request, prepared.transform));
+  openvdb::MaskGrid::Ptr near = mask;  // the voxels asked for, and a few around them
   if (marks) {
     const StageTimer timer(report.surfaceSeconds);
     mask = markObjects(scene, request, prepared, progress, report);
+    near = mask;
+    if (request.crops()) {
+      near = cropped(*mask, prepared.region.grown(kMarginOfSoft));
+      for (PreparedSurface& surface : prepared.surfaces)
+        if (surface.voxels) crop(*surface.voxels, prepared.region.grown(kMarginOfSoft));
+      report.activeVoxels = cropped(*mask, prepared.region)->activeVoxelCount();
+    }
   }
   openvdb::MaskGrid::Ptr laterMask;
   const auto workOf = [&,
@@ -174,8 +239,6 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
 
   const VolumeSettings& volume = request.volume;
   result.compression = volume.compression;
-  if (volume.target == Target::kBlender34)
-    mask->transform().postTranslate(openvdb::Vec3d(-prepared.transform.voxelSize / 2));
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, request, report);
   openvdb::MaskGrid::Ptr soft;
@@ -184,13 +247,21 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
     const GridKind kind = request.grids[i];
     const double work = workOf(kind);
     progress.begin("grids", kind == GridKind::kSurface && !marks ? work / 2 : work);
-    const openvdb::GridBase::Ptr grid =
-        makeGrid(kind, {mask, prepared.surfaces, markVoxels, soft}, volume, prepared.budget,
-                 progress, report.warnings);
+    openvdb::GridBase::Ptr grid = makeGrid(kind,
+                                           {kind == GridKind::kDensity ? mask : near,
+                                            prepared.surfaces, markVoxels, soft, prepared.region},
+                                           volume, prepared.budget, progress, report.warnings);
     if (kind == GridKind::kDensity && volume.edge == Edge::kSoft)
-      soft = softVoxels(*openvdb::gridPtrCast<openvdb::FloatGrid>(grid), *mask);
+      soft = cropped(*softVoxels(*openvdb::gridPtrCast<openvdb::FloatGrid>(grid), *mask),
+                     prepared.region.grown(1));
+    if (grid == near && request.crops()) grid = near->deepCopyGrid();  // others still need `near`
+    cropGrid(*grid, prepared.region);
     result.grids[i] = finished(grid, kind, volume, metadata);
+    // OpenVDB rounds when it copies a transform that moves.
+    if (const auto& origin = request.resolution.origin; origin && !origin->isZero(0))
+      result.grids[i]->setTransform(transformOfFile(request, prepared.transform));
   }
+  if (request.crops()) warnOfEmpty(result, report);
   if (!marks) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
 }

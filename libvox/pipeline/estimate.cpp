@@ -9,6 +9,7 @@
 #include "libvox/grid/openvdb.h"
 #include "libvox/mesh/area_vector.h"
 #include "libvox/options/voxelize.h"
+#include "libvox/pipeline/crop_polygons.h"
 #include "libvox/pipeline/few_polygons.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/refined_polygons.h"
@@ -135,28 +136,43 @@ double activeVoxelsOf(const ConversionWay& way, const Measure& m) {
   return way.separation == Separation::k26 ? m.taxicabArea : m.largestArea;
 }
 
-Measure measureOf(const PreparedSurface& surface, Cubes& leaves, Cubes& lowers) {
+/// The box of the cubes of a region.
+Box boxOf(const Region& region) {
+  constexpr double kHalf = 0.5;
+  const openvdb::CoordBBox& voxels = region.box();
+  Box box{Vec3d(voxels.min().x(), voxels.min().y(), voxels.min().z()),
+          Vec3d(voxels.max().x(), voxels.max().y(), voxels.max().z())};
+  box.low.array() -= kHalf;
+  box.high.array() += kHalf;
+  return box;
+}
+
+Measure measureOf(const PreparedSurface& surface, const Region& region, Cubes& leaves,
+                  Cubes& lowers) {
   Measure measure;
-  const PolygonMesh polygons = fewPolygons(surface.base, levelOf(surface.way));
+  const PolygonMesh whole = fewPolygons(surface.base, levelOf(surface.way));
+  const PolygonMesh polygons = region.isAll() ? whole : croppedTo(boxOf(region), whole);
   addAreas(polygons, measure);
   leaves.add(polygons, measure.area);
   lowers.add(polygons, measure.area);
-  const std::vector<Index> faces = numbered(polygons.faceCount());
   const bool open = hasOpenEdge(surface.base);
   if (open) measure.sheetArea = measure.area;
-  if (!open) measure.volume = std::max(0.0, signedVolume(polygons, faces).volume);
+  if (!open)
+    measure.volume =
+        std::max(0.0, region.isAll() ? signedVolume(whole, numbered(whole.faceCount())).volume
+                                     : volumeWithin(boxOf(region), whole));
   measure.activeVoxels = activeVoxelsOf(surface.way, measure);
   return measure;
 }
 
-Measure measureOf(std::span<const PreparedSurface> surfaces) {
+Measure measureOf(std::span<const PreparedSurface> surfaces, const Region& region) {
   Measure all;
   constexpr double kMostLeafPieces = 5000;
   constexpr double kMostLowerPieces = 100000;
   Cubes leaves(MaskLeaf::TOTAL, kMostLeafPieces);
   Cubes lowers(MaskLower::TOTAL, kMostLowerPieces);
   for (const PreparedSurface& surface : surfaces) {
-    const Measure one = measureOf(surface, leaves, lowers);
+    const Measure one = measureOf(surface, region, leaves, lowers);
     all.area += one.area;
     all.taxicabArea += one.taxicabArea;
     all.volume += one.volume;
@@ -317,16 +333,23 @@ GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& v
 }  // namespace
 
 Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
-                       const VolumeSettings& volume) {
-  const Measure measure = measureOf(surfaces);
+                       const VolumeSettings& volume, const Region& region) {
+  const Measure measure = measureOf(surfaces, region);
+  // The inside is found in the whole, and cropped then.
+  const bool needsWhole = !region.isAll() && needsInside(kinds, volume);
+  const Measure marked = needsWhole ? measureOf(surfaces, {}) : measure;
   Estimate all;
   const bool voxels = needsVoxels(kinds);
   const bool withDensity = std::find(kinds.begin(), kinds.end(), GridKind::kDensity) != kinds.end();
   if (voxels) all.voxels = measure.activeVoxels;
-  all.bytes = voxels ? estimateMask(measure).bytes : 0;
+  all.bytes = voxels ? estimateMask(marked).bytes : 0;
   double uppers = voxels ? sizeof(MaskUpper) : 0;
   for (const GridKind kind : kinds) {
-    const GridEstimate grid = estimateOf(kind, measure, volume, withDensity);
+    GridEstimate grid = estimateOf(kind, measure, volume, withDensity);
+    if (needsWhole && kind == GridKind::kSurface)
+      grid.peakBytes = estimateSurface(marked, volume).peakBytes;
+    if (needsWhole && kind == GridKind::kDensity)
+      grid.peakBytes += 2 * (estimateMask(marked).bytes - estimateMask(measure).bytes);
     if (kind != GridKind::kMask) {
       all.bytes += grid.peakBytes;
       uppers += sizeof(openvdb::Vec3STree::RootNodeType::ChildNodeType);  // the largest

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/grid/region.h"
 #include "libvox/options/grid_kind.h"
 #include "libvox/options/surface_options.h"
 #include "libvox/options/volume_options.h"
@@ -46,8 +47,9 @@ inline constexpr double kEstimateFactor = 1.5;
 /// Estimates grids from few polygons near each surface: from their area, by direction, and from the
 /// large nodes that they meet. Costs little compared with the conversion. Sets neither voxel size
 /// nor levels.
+/// @param region  the voxels asked for
 Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
-                       const VolumeSettings& volume);
+                       const VolumeSettings& volume, const Region& region = {});
 
 /// Approximate number of Doo-Sabin steps down to the deepest vertex.
 int levelsOf(const PreparedSurface& surface, Progress& progress);

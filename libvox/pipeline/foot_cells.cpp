@@ -86,7 +86,10 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
     return std::make_unique<CellWalk>(surface.base, cellOptions, firstOwner,
                                       *storeOfThread_.local(), filter, whole ? &*whole : nullptr);
   };
-  runSubmeshes(cutIntoSubmeshes(surface.base, surface.options), progress, part, walkOfThread,
+  Submeshes submeshes = cutIntoSubmeshes(surface.base, surface.options);
+  // A band needs all cells: the sides of voxels follow from those of others.
+  if (options_.places) skipFarFrom(surface.region, double{options_.reach} + 1, submeshes);
+  runSubmeshes(submeshes, progress, part, walkOfThread,
                [&](const std::unique_ptr<CellWalk>& walk, const SubmeshTask& task) {
                  const std::uint64_t before = walk->store.bytes();
                  walk->emit(task.faces, faces);

@@ -4,6 +4,7 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
+#include "libvox/grid/crop.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/distance.h"
@@ -32,14 +33,15 @@ std::uint64_t bytesOfGrid(const openvdb::MaskTree& mask) {
 
 openvdb::FloatGrid::Ptr hardDensityGrid(const openvdb::MaskTree& mask,
                                         std::span<const PreparedSurface> surfaces,
-                                        const VolumeSettings& volume, float value,
-                                        MemoryBudget& budget, Progress& progress,
+                                        const VolumeSettings& volume, const Region& region,
+                                        float value, MemoryBudget& budget, Progress& progress,
                                         std::vector<std::string>& warnings) {
-  openvdb::MaskTree::ConstPtr solid;
+  openvdb::MaskTree::Ptr solid;
   const openvdb::MaskTree* tree = &mask;
   if (volume.fill == Fill::kSolid) {
     budget.require(bytesOfFilling(*tree), "the inside", kScatteredAdvice);
     solid = solidOf(*tree, surfaces, volume, budget, progress, warnings).voxels;
+    crop(*solid, region);
     tree = solid.get();
   }
   budget.take(bytesOfFloats(*tree), "the density grid", kScatteredAdvice);
@@ -48,14 +50,16 @@ openvdb::FloatGrid::Ptr hardDensityGrid(const openvdb::MaskTree& mask,
 
 openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
                                    std::span<const PreparedSurface> surfaces,
-                                   const VolumeSettings& volume, MemoryBudget& budget,
-                                   Progress& progress, std::vector<std::string>& warnings) {
+                                   const VolumeSettings& volume, const Region& region,
+                                   MemoryBudget& budget, Progress& progress,
+                                   std::vector<std::string>& warnings) {
   const auto value =
       static_cast<float>(densityValue(volume.gain, volume.target, mask.voxelSize()[0]));
   const auto density =
       volume.edge == Edge::kSoft
           ? softDensityGrid(mask.tree(), surfaces, volume, value, budget, progress, warnings)
-          : hardDensityGrid(mask.tree(), surfaces, volume, value, budget, progress, warnings);
+          : hardDensityGrid(mask.tree(), surfaces, volume, region, value, budget, progress,
+                            warnings);
   density->setTransform(mask.transform().copy());
   density->insertMeta(kGainMetadata, openvdb::FloatMetadata(value));
   return density;
@@ -76,16 +80,23 @@ bool needsVoxels(std::span<const GridKind> kinds) {
                      [](GridKind kind) { return kind != GridKind::kSurface; });
 }
 
+bool needsInside(std::span<const GridKind> kinds, const VolumeSettings& volume) {
+  return std::any_of(kinds.begin(), kinds.end(), [&](GridKind kind) {
+    return kind == GridKind::kSurface ||
+           (kind == GridKind::kDensity && volume.fill == Fill::kSolid);
+  });
+}
+
 openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
                                 const VolumeSettings& volume, MemoryBudget& budget,
                                 Progress& progress, std::vector<std::string>& warnings) {
   progress.check();
-  const auto& [mask, surfaces, markVoxels, soft] = sources;
+  const auto& [mask, surfaces, markVoxels, soft, region] = sources;
   switch (kind) {
     case GridKind::kMask:
       break;
     case GridKind::kDensity:
-      return makeDensity(*mask, surfaces, volume, budget, progress, warnings);
+      return makeDensity(*mask, surfaces, volume, region, budget, progress, warnings);
     case GridKind::kSurface:
       return surfaceGrid(surfaces, volume, mask->transform(), markVoxels, budget, progress,
                          warnings);

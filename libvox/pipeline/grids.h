@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/grid/openvdb_fwd.h"
+#include "libvox/grid/region.h"
 #include "libvox/options/grid_kind.h"
 #include "libvox/options/volume_options.h"
 #include "libvox/pipeline/distance.h"
@@ -25,6 +26,8 @@ inline constexpr const char* kScatteredAdvice =
 
 /// True if one of the grids is made from the active voxels.
 bool needsVoxels(std::span<const GridKind> kinds);
+/// True if one of the grids tells inside from outside.
+bool needsInside(std::span<const GridKind> kinds, const VolumeSettings& volume);
 
 /// What grids are made of.
 struct GridSources {
@@ -33,6 +36,7 @@ struct GridSources {
   MarkVoxels markVoxels;  ///< makes the active voxels of all surfaces if the mask is empty
   /// The voxels of a soft density near the surface (soft_density.h); null if there is none.
   std::shared_ptr<openvdb::MaskGrid> soft = nullptr;
+  Region region = {};  ///< other voxels need no values, but grids may have some
 };
 
 /// The output grid of a kind.

@@ -7,6 +7,8 @@
 #include "libvox/core/progress.h"
 #include "libvox/grid/active_voxels.h"
 #include "libvox/grid/leaf_cache.h"
+#include "libvox/grid/region.h"
+#include "libvox/grid/transform.h"
 #include "libvox/mesh/triangulate.h"
 #include "libvox/options/voxelize.h"
 #include "libvox/pipeline/refine.h"
@@ -38,13 +40,18 @@ using ScanSinks = tbb::enumerable_thread_specific<ScanSink>;
 class ScanSink : public PolygonSink {
  public:
   ScanSink(ActiveVoxels& grid, Separation separation, const Progress& progress, ScanSinks& all)
-      : cache_(grid), separation_(separation), progress_(progress), all_(all) {}
+      : cache_(grid),
+        region_(grid.region()),
+        separation_(separation),
+        progress_(progress),
+        all_(all) {}
 
   void polygons(const PolygonMesh& piece) override { faces(piece, 0, piece.faceCount()); }
 
   void faces(const PolygonMesh& mesh, Index begin, Index end) {
     triangles_.clear();
-    for (Index f = begin; f != end; ++f) faces_.add(mesh, f, triangles_);
+    for (Index f = begin; f != end; ++f)
+      if (region_.isAll() || isNear(mesh, f)) faces_.add(mesh, f, triangles_);
     report_.triangles += triangles_.size();
     const auto middle = std::stable_partition(
         triangles_.begin(), triangles_.end(),
@@ -65,6 +72,13 @@ class ScanSink : public PolygonSink {
 
   static Corners cornersOf(const PolygonMesh& mesh, const std::array<Index, 3>& triangle) {
     return {mesh.points[triangle[0]], mesh.points[triangle[1]], mesh.points[triangle[2]]};
+  }
+  /// Whether a face may meet voxels of the region.
+  bool isNear(const PolygonMesh& mesh, Index face) const {
+    Box box = boxOf(mesh, std::span(&face, 1));
+    box.low.array() -= 1;
+    box.high.array() += 1;
+    return region_.meets(box);
   }
   static bool isLong(const Corners& corners) {
     const Vec3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
@@ -89,6 +103,7 @@ class ScanSink : public PolygonSink {
   }
 
   LeafCache cache_;
+  const Region& region_;
   Separation separation_;
   const Progress& progress_;
   ScanSinks& all_;

@@ -9,6 +9,7 @@
 #include "libvox/options/voxelize.h"
 #include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/convert.h"
+#include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/plan.h"
 #include "libvox/pipeline/refine.h"
@@ -43,14 +44,6 @@ void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, Conv
   else if (separate && loops > 1)
     report.warnings.push_back(name + " falls apart into " + std::to_string(loops) +
                               " separate faces, each smoothed by itself" + kWhy);
-}
-
-/// True if one of the grids tells inside from outside.
-bool needsInside(const Request& request) {
-  return std::any_of(request.grids.begin(), request.grids.end(), [&](GridKind kind) {
-    return kind == GridKind::kSurface ||
-           (kind == GridKind::kDensity && request.volume.fill == Fill::kSolid);
-  });
 }
 
 /// Warns of a grid of colours for objects that have none.
@@ -95,6 +88,21 @@ PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_
           placedTexture(request.texture, object, transform.turn)};
 }
 
+/// The voxels that a request asks for.
+/// @throws UsageError  there are none
+Region regionOf(const Request& request, const GridTransform& transform) {
+  Region region;
+  if (request.bounds) region = regionOf(*request.bounds, transform);
+  if (region.isEmpty())
+    throw UsageError(
+        "--bounds: the box holds no centre of a voxel; make it larger, or use smaller "
+        "voxels");
+  if (const auto& clip = request.clip)
+    region = region &
+             Region({{(*clip)[0], (*clip)[1], (*clip)[2]}, {(*clip)[3], (*clip)[4], (*clip)[5]}});
+  return region;
+}
+
 }  // namespace
 
 PreparedScene prepareScene(const Scene& scene, const Request& request, Progress& progress,
@@ -112,9 +120,9 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
   for (const ObjectRequest& object : request.objects) preparations.push_back(object.preparation);
   const Box box = boxOf(scene, preparations);
   GridTransform& transform = prepared.transform;
-  transform = transformFor(request.resolution, box);
-  transform.turn = request.turn;
+  transform = placedFor(request, transformFor(request.resolution, box));
   requireInRange(box, transform);
+  prepared.region = regionOf(request, transform);
   report.voxelSize = transform.voxelSize;
   prepared.areas = areasOf(scene, transform, progress);
   plan(scene, request, prepared.areas, progress);
@@ -123,13 +131,16 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
       prepared.surfaces.push_back(
           prepareObject(scene, request, i, transform, budget, progress, report));
+    for (PreparedSurface& surface : prepared.surfaces)
+      surface.region = prepared.region.grown(kMarginOfFeet);
   }
-  if (needsInside(request))
+  if (needsInside(request.grids, request.volume))
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
       requireInside(
           prepared.surfaces[i], request.volume, transform,
           [&] { return gapsOf(scene.objects[i], preparations[i]); }, report.warnings);
-  prepared.estimate = estimateGrids(prepared.surfaces, request.grids, request.volume);
+  prepared.estimate =
+      estimateGrids(prepared.surfaces, request.grids, request.volume, prepared.region);
   prepared.estimate.voxelSize = report.voxelSize;
   prepared.estimate.refusal = refusalOf(prepared.estimate, box.longestSide(), budget);
   return prepared;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/memory.h"
+#include "libvox/grid/region.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/pipeline/conversion_report.h"
@@ -18,6 +19,7 @@ class Progress;
 struct PreparedScene {
   MemoryBudget budget;
   GridTransform transform = {};
+  Region region = {};                          ///< the voxels asked for
   std::vector<double> areas = {};              ///< areasOf
   std::vector<PreparedSurface> surfaces = {};  ///< one for each object, in index space
   Estimate estimate = {};                      ///< without levels; may hold a refusal

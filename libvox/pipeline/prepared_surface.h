@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/grid/openvdb_fwd.h"
+#include "libvox/grid/region.h"
 #include "libvox/options/surface_options.h"
 #include "libvox/pipeline/choose.h"
 #include "libvox/subdivide/level.h"
@@ -20,6 +21,10 @@ struct PlacedTexture {
   Eigen::Affine3d fromWorld;
 };
 
+/// Feet are looked for this far beyond the voxels asked for. Soft values at the end of a box depend
+/// on voxels beside them.
+inline constexpr int kMarginOfFeet = 8;  // voxels
+
 /// An object that is ready to voxelize, in index space.
 struct PreparedSurface {
   std::string name;
@@ -29,6 +34,7 @@ struct PreparedSurface {
   std::optional<PlacedTexture> texture = {};
   /// The voxels of this object alone; null if no grid needs the objects separately.
   std::shared_ptr<openvdb::MaskTree> voxels = {};
+  Region region = {};  ///< the feet of other voxels are not needed
   /// Which components have no inside, and why: for a message. Empty if all have one, or nothing
   /// asks for it.
   std::string noInside = {};

@@ -72,6 +72,17 @@ std::vector<GridKind> gridsOf(const Scene& scene, const ConvertOptions& options)
   return kinds;
 }
 
+std::optional<Box> boundsOf(const std::optional<std::array<double, 6>>& bounds) {
+  if (!bounds) return std::nullopt;
+  const Box box{Vec3d(bounds->data()), Vec3d(bounds->data() + 3)};
+  if (box.empty() || !box.low.allFinite() || !box.high.allFinite())
+    throw UsageError(
+        "--bounds must be two corners of a box, the low one first: x0,y0,z0,x1,y1,z1 with x0 <= "
+        "x1, "
+        "y0 <= y1 and z0 <= z1");
+  return box;
+}
+
 ConversionWay wayOf(const Scene& scene, const SceneObject& object, const ConvertOptions& options) {
   const StopRule until = firstSet({options.until, object.until, scene.until});
   const Voxelize voxelize =
@@ -81,14 +92,16 @@ ConversionWay wayOf(const Scene& scene, const SceneObject& object, const Convert
   return chooseWay(until, voxelize, options.separation);
 }
 
-/// The text of the options. The resolution is there even if the scene or the default set it, and so
-/// are different widths of the band, which tell the values of the level set far off, and a target
-/// whose rules differ from those of Blender.
+/// The text of the options. The resolution and the bounds are there even if the scene or the
+/// default set them, and so are different widths of the band, which tell the values of the level
+/// set far off, and a target whose rules differ from those of Blender.
 std::string textOf(ConvertOptions options, const Resolution& resolution,
+                   const std::optional<std::array<double, 6>>& ofScene,
                    const VolumeSettings& volume) {
   options.voxelSize = resolution.voxelSize;
   options.dim = resolution.dim.value_or(kDefaultDim);
   if (options.voxelSize) options.dim.reset();
+  if (!options.bounds) options.bounds = ofScene;
   if (!volume.band.isSymmetric()) options.volume.band = volume.band;
   if (volume.target == Target::kHoudini) options.volume.target = volume.target;
   return optionText(options);
@@ -97,8 +110,21 @@ std::string textOf(ConvertOptions options, const Resolution& resolution,
 }  // namespace
 
 Resolution resolutionOf(const Scene& scene, const ConvertOptions& options) {
-  const Resolution first{options.voxelSize, options.dim};
+  Resolution first{options.voxelSize, options.dim};
+  if (options.origin && !options.voxelSize)
+    throw UsageError("the origin of a lattice needs its voxel size");
+  if (options.origin) first.origin = Vec3d(options.origin->data());
   return first.isSet() ? first : Resolution{scene.voxelSize, scene.dim};
+}
+
+GridTransform placedFor(const Request& request, GridTransform transform) {
+  transform.turn = request.turn;
+  if (!request.resolution.origin) return transform;
+  transform.origin = *request.resolution.origin;
+  // The file says half a voxel less than where the surface is.
+  if (request.volume.target == Target::kBlender34)
+    transform.origin.array() += transform.voxelSize / 2;
+  return transform;
 }
 
 GridTransform transformFor(const Resolution& resolution, const Box& box) {
@@ -151,8 +177,10 @@ Request resolve(const Scene& scene, const ConvertOptions& options) {
   request.volume = volumeOf(options.volume, scene.volume);
   const auto& up = options.volume.up ? options.volume.up : scene.volume.up;
   request.turn = turnFor(up, request.volume.target);
+  request.bounds = boundsOf(options.bounds ? options.bounds : scene.bounds);
+  request.clip = options.clip;
   request.grids = gridsOf(scene, options);
-  request.optionText = textOf(options, request.resolution, request.volume);
+  request.optionText = textOf(options, request.resolution, scene.bounds, request.volume);
   requirePreparable(scene, options);
   return request;
 }

@@ -5,6 +5,7 @@
 #include "libvox/options/convert_options.h"
 #include "libvox/pipeline/choose.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,10 +15,13 @@ namespace vox {
 // Where several places set a value, the command line (the options) wins over the object, the object
 // over the scene, the scene over the default. This is the only file that decides it.
 
+struct Request;
+
 /// How fine the grid is: voxels of a size in world units, or `dim` of them along the longest side.
 struct Resolution {
-  std::optional<double> voxelSize;  ///< wins over dim
-  std::optional<int> dim;           ///< default: kDefaultDim
+  std::optional<double> voxelSize = {};  ///< wins over dim
+  std::optional<int> dim = {};           ///< default: kDefaultDim
+  std::optional<Vec3d> origin = {};      ///< as in ConvertOptions; only with voxelSize
 
   bool isSet() const { return voxelSize || dim; }
 };
@@ -26,6 +30,10 @@ Resolution resolutionOf(const Scene& scene, const ConvertOptions& options);
 /// Transform of that resolution for an input within a box, without a turn.
 /// @throws UsageError, InputError, LimitError  as transformForDim and transformForVoxelSize
 GridTransform transformFor(const Resolution& resolution, const Box& box);
+
+/// A transform of that size for the surfaces of a request: with its turn, and with the lattice that
+/// it asks for.
+GridTransform placedFor(const Request& request, GridTransform transform);
 
 /// How an object is made ready to subdivide.
 struct ObjectPreparation {
@@ -70,11 +78,16 @@ struct ObjectRequest {
 struct Request {
   Resolution resolution;
   Turn turn = Turn::kNoTurn;
-  std::vector<GridKind> grids;  ///< in the order asked for
+  std::optional<Box> bounds;               ///< as in ConvertOptions
+  std::optional<std::array<int, 6>> clip;  ///< as in ConvertOptions
+  std::vector<GridKind> grids;             ///< in the order asked for
   VolumeSettings volume;
   Separation separation;
   SurfaceOptions surface;
   RunOptions run;
+  /// True if not all voxels are wanted.
+  bool crops() const { return bounds || clip; }
+
   std::string optionText;              ///< the options that were set, as metadata `vox_options`
   std::vector<ObjectRequest> objects;  ///< one for each object of the scene
 
@@ -87,7 +100,8 @@ struct Request {
 
 /// @throws UsageError  a stop rule, or its combination with the way to voxelize and the separation,
 ///   is impossible (choose.h); a number of the volume options is out of range, or OpenVDB lacks the
-///   compression; a texture is asked for without the color grid; as requirePreparable
+///   compression; the bounds are no box, or there is an origin without a voxel size; a texture is
+///   asked for without the color grid; as requirePreparable
 Request resolve(const Scene& scene, const ConvertOptions& options);
 
 }  // namespace vox

@@ -55,12 +55,32 @@ Submeshes cutIntoSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& o
           options.localize != Localize::kBefore};
 }
 
+void skipFarFrom(const Region& region, double margin, Submeshes& submeshes) {
+  if (region.isAll()) return;
+  const PolygonMesh& mesh = submeshes.base.mesh;
+  std::vector<Box> around(mesh.pointCount());  // of each point: the faces around it
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    const Box box = boxOf(mesh, std::span(&f, 1));
+    for (const Index v : mesh.face(f)) around[v].add(box);
+  }
+  submeshes.skipped.resize(submeshes.partition.size());
+  for (Index s = 0; s < submeshes.partition.size(); ++s) {
+    Box hull;
+    for (const Index f : submeshes.partition.submesh(s))
+      for (const Index v : mesh.face(f)) hull.add(around[v]);
+    hull.low.array() -= margin;
+    hull.high.array() += margin;
+    submeshes.skipped[s] = !region.meets(hull);
+  }
+}
+
 void runSubmeshes(const Submeshes& submeshes, Progress& progress, double part,
                   const std::function<void(SubmeshTask&)>& walk) {
   const std::vector<double> shares =
       progress.watched() ? sharesOf(submeshes) : std::vector<double>(submeshes.partition.size());
   parallelForEach(submeshes.partition.size(), 1, [&](Index s) {
     progress.check();
+    if (!submeshes.skipped.empty() && submeshes.skipped[s]) return progress.done(part * shares[s]);
     // Isolated: while a thread waits for others, it must not start another submesh.
     tbb::this_task_arena::isolate([&] {
       SubmeshTask task{s, submeshes.partition.submesh(s), progress};

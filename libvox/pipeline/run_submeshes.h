@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/progress.h"
+#include "libvox/grid/region.h"
 #include "libvox/localize/partition.h"
 #include "libvox/options/surface_options.h"
 #include "libvox/subdivide/level.h"
@@ -19,11 +20,17 @@ namespace vox {
 struct Submeshes {
   const SubdivisionLevel& base;
   Partition partition;
-  bool split;  ///< tiles of large parts are tasks, which other threads may take
+  bool split;                      ///< tiles of large parts are tasks, which other threads may take
+  std::vector<bool> skipped = {};  ///< submeshes that are not walked over; empty: none
 };
 
 /// @param base  level 0 in index space; must outlive the result
 Submeshes cutIntoSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& options);
+
+/// Skips the submeshes that come nowhere near a region: whose control points, with those of all
+/// faces around them, lie in a box that is farther away.
+/// @param margin  voxels
+void skipFarFrom(const Region& region, double margin, Submeshes& submeshes);
 
 /// A part of a submesh that is too large for one task.
 struct LargePart {

@@ -7,6 +7,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/foot/nearest_feet.h"
+#include "libvox/grid/crop.h"
 #include "libvox/grid/enclosed.h"
 #include "libvox/grid/grow.h"
 #include "libvox/grid/openvdb.h"
@@ -152,6 +153,7 @@ class SoftDensity {
         progress_(progress),
         near_(mask) {
     grow(near_);
+    if (!surfaces.empty()) crop(near_, surfaces[0].region);
   }
 
   openvdb::FloatTree::Ptr shells() {

@@ -5,6 +5,8 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/active_voxels.h"
+#include "libvox/grid/region.h"
+#include "libvox/grid/transform.h"
 #include "libvox/mesh/patch_parts.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/run_submeshes.h"
@@ -27,6 +29,9 @@ namespace {
 /// Larger patches are made in tiles: 256 x 256 vertices are some 50 microseconds of work.
 constexpr int kMostLevelsOfTile = 8;
 
+/// A voxel that a vertex is rounded to is nearer to it than this, with all errors of computing.
+constexpr double kMarginOfMarks = 1;  // voxels
+
 using ThreadSinks = tbb::enumerable_thread_specific<VertexSink>;
 
 /// Tile number `tile` of a patch: one of its 4^levels descendants.
@@ -38,11 +43,22 @@ Patch tileOf(Patch patch, int levels, std::int64_t tile) {
   return patch;
 }
 
+/// Whether no descendant of a patch can switch on a voxel of a region.
+bool isFar(const Region& region, const Patch& patch) {
+  if (region.isAll() || patch.quadrants != kAllQuadrants) return false;
+  Box hull;
+  for (const auto& row : patch.points)
+    for (const Vec3d& point : row) hull.add(point);
+  hull.low.array() -= kMarginOfMarks;
+  hull.high.array() += kMarginOfMarks;
+  return !region.meets(hull);
+}
+
 /// Passes the vertices of a submesh to the sink of the thread, except for large patches.
 class SubmeshSink : public SurfaceSink {
  public:
-  SubmeshSink(ThreadSinks& sinks, SubmeshTask& task)
-      : sinks_(sinks), sink_(sinks.local()), task_(task) {}
+  SubmeshSink(const Region& region, ThreadSinks& sinks, SubmeshTask& task)
+      : region_(region), sinks_(sinks), sink_(sinks.local()), task_(task) {}
 
   void points(std::span<const Vec3d> points, int level) override { sink_.points(points, level); }
   void curve(const CurvePoints& points, int k, int level) override {
@@ -50,16 +66,19 @@ class SubmeshSink : public SurfaceSink {
     sink_.curve(points, k, level);
   }
   void patch(const Patch& patch, int k, int level) override {
+    if (isFar(region_, patch)) return;
     const int levels = k - kMostLevelsOfTile;
     if (levels <= 0 || patch.quadrants != kAllQuadrants) return sink_.patch(patch, k, level);
-    task_.later.push_back({std::int64_t{1} << (2 * levels), std::ldexp(1.0, 2 * k),
-                           [&sinks = sinks_, patch, levels, level](std::int64_t tile) {
-                             sinks.local().patch(tileOf(patch, levels, tile), kMostLevelsOfTile,
-                                                 level);
-                           }});
+    task_.later.push_back(
+        {std::int64_t{1} << (2 * levels), std::ldexp(1.0, 2 * k),
+         [&sinks = sinks_, &region = region_, patch, levels, level](std::int64_t tile) {
+           const Patch part = tileOf(patch, levels, tile);
+           if (!isFar(region, part)) sinks.local().patch(part, kMostLevelsOfTile, level);
+         }});
   }
 
  private:
+  const Region& region_;
   ThreadSinks& sinks_;
   VertexSink& sink_;
   SubmeshTask& task_;
@@ -69,10 +88,11 @@ double verticesOf(const VertexSink& sink) {
   return std::accumulate(sink.vertices().begin(), sink.vertices().end(), 0.0);
 }
 
-void markSubmeshes(const Submeshes& submeshes, Progress& progress, ThreadSinks& sinks) {
+void markSubmeshes(const Submeshes& submeshes, const Region& region, Progress& progress,
+                   ThreadSinks& sinks) {
   const auto walkerOfThread = [&] { return LocalSurface(submeshes.base); };
   runSubmeshes(submeshes, progress, 1, walkerOfThread, [&](LocalSurface& local, SubmeshTask& task) {
-    SubmeshSink sink(sinks, task);
+    SubmeshSink sink(region, sinks, task);
     const double before = verticesOf(sinks.local());
     local.emit(task.faces, sink);
     task.walked = verticesOf(sinks.local()) - before;
@@ -121,9 +141,10 @@ void markSurface(const SubdivisionLevel& base, const SurfaceOptions& options,
   if (options.localize == Localize::kOff) {
     markWhole(base, budget, progress, grid, sinks.local());
   } else {
-    const Submeshes submeshes = cutIntoSubmeshes(base, options);
+    Submeshes submeshes = cutIntoSubmeshes(base, options);
+    skipFarFrom(grid.region(), kMarginOfMarks, submeshes);
     report.submeshes += submeshes.partition.size();
-    markSubmeshes(submeshes, progress, sinks);
+    markSubmeshes(submeshes, grid.region(), progress, sinks);
   }
   for (VertexSink& sink : sinks) {
     sink.flush();
