@@ -25,4 +25,5 @@ draw figure10_texture textured_before.toml 260x260
 draw figure11_smoothed_texture textured_after.toml 260x260
 draw voxels toy_jack.toml 400x400 --dim 48 --shading flat
 draw marble marble_jack.toml 320x320
+draw football football.toml 320x320 --dim 320
 draw creases creases.toml 720x440 --dim 720

@@ -149,11 +149,13 @@ TEST_CASE("a part is as large as its longer side in texels", "[volume][image][go
   CHECK(ImageTexture(image, {.scale = Vec2d(2, 3)}).texelsAcross({0.5, 0}, {0, -1}) == 12);
 }
 
-TEST_CASE("samples follow the texels, from 1 to 16", "[volume][image][golden]") {
+TEST_CASE("samples follow the texels, from 1 to 64; of noise there are 16",
+          "[volume][image][golden]") {
   CHECK(ImageTexture::samplesAcross(0) == 1);
   CHECK(ImageTexture::samplesAcross(1) == 1);
   CHECK(ImageTexture::samplesAcross(1.01) == 2);
   CHECK(ImageTexture::samplesAcross(7) == 7);
+  CHECK(ImageTexture::samplesAcross(100) == 64);
   CHECK(ImageTexture::samplesAcross(1e300) == 16);
   CHECK(ImageTexture::samplesAcross(kInfinity) == 16);
   CHECK(ImageTexture::samplesAcross(kNan) == 1);

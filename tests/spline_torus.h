@@ -26,12 +26,15 @@ class SplineTorus {
   /// Normal at the point of the surface nearest to `point`, which must be near the surface.
   Vec3d normalNear(const Vec3d& point) const;
 
+  /// Parameters u, v of the point of the surface nearest to `point`. Control point (i, j) belongs
+  /// to u = i - 1/2, v = j - 1/2.
+  std::array<double, 2> nearest(const Vec3d& point) const;
+
  private:
   struct Frame {
     Vec3d at, du, dv, duu, duv, dvv;
   };
   Frame frame(double u, double v) const;
-  std::array<double, 2> nearest(const Vec3d& point) const;
 
   int major_, minor_;
   std::vector<Vec3d> controls_;

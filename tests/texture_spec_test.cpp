@@ -20,7 +20,7 @@ TEST_CASE("the text of a texture makes the same texture again", "[texture][prope
 
 TEST_CASE("every kind is in the list of names and has colours", "[texture]") {
   const std::string names = allTextureNames();
-  CHECK(names == "checker, stripes, rings, marble, noise, gradient, brick");
+  CHECK(names == "checker, stripes, rings, marble, noise, gradient, brick, image");
   for (const auto* name : {"checker", "stripes", "rings", "marble", "noise", "gradient", "brick"})
     CHECK(textureNamed(name).colors.size() >= kLeastColors);
 }

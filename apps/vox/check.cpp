@@ -167,6 +167,9 @@ void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
     throw InputError(
         options.file +
         ": was cropped (--bounds, --clip): a mesh can be held against whole grids only");
+  if (made.volume.alpha == Alpha::kCut)
+    throw InputError(options.file +
+                     ": has holes (--alpha cut): a mesh can be held against whole grids only");
   const Scene scene = readScene(options.mesh, made.scale);
   check.objects = checkObjects(voxels, scene, resolve(scene, made), grid.voxelSize().x());
   for (const ObjectCheck& object : check.objects)

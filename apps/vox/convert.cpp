@@ -217,9 +217,10 @@ Action addConvert(CLI::App& app) {
       .group("Output");
   command
       .add("--texture", options->conversion.texture,
-           "Solid texture of all objects, in the grid color: " + allTextureNames() +
-               "; with parameters: marble:scale=0.2,seed=3 (default: the scene's textures, "
-               "or the colours of the meshes)")
+           "Texture of all objects, in the grid color: " + allTextureNames() +
+               "; with parameters: marble:scale=0.2,seed=3 or image:file=F (default: the scene's "
+               "textures, "
+               "or the images and colours of the meshes)")
       .type("KIND[:KEY=VALUE,...]")
       .group("Output");
   addVolumeOptions(command, options->volume);

@@ -55,6 +55,7 @@ Json bandJson(const std::optional<BandWidths>& band) {
 Json toJson(const VolumeOptions& volume) {
   return {{"fill", orNull(kFillNames, volume.fill)},
           {"edge", orNull(kEdgeNames, volume.edge)},
+          {"alpha", orNull(kAlphaNames, volume.alpha)},
           {"gain", orNull(volume.gain)},
           {"open_mesh", orNull(kOpenMeshNames, volume.openMesh)},
           {"close", orNull(volume.close)},
@@ -162,7 +163,7 @@ std::string reportJson(const FinishedRun& run) {
   for (const ObjectReport& object : report.objects) objects.push_back(toJson(object));
   const Json json = {{"vox_version", version()},
                      {"input", files},
-                     {"input_hash", run.scene.inputHash},
+                     {"input_hash", run.conversion.report.inputHash},
                      {"output", run.output},
                      {"options", optionsJson(run)},
                      {"threads", report.threads},

@@ -274,6 +274,12 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .type("hard|soft")
       .group("Output");
   command
+      .add("--alpha", arguments.alpha,
+           "Where images and materials are transparent: the surface is there all the same (keep), "
+           "or it has a hole where they cover less than half (cut) (default: the scene's, or keep)")
+      .type("keep|cut")
+      .group("Output");
+  command
       .add("--gain", arguments.gain,
            "Value of the grid density at its voxels (default: the scene's, or 6 / voxel size, at "
            "least 1, which makes a surface opaque in Blender; 1 for --target houdini)")
@@ -342,6 +348,7 @@ VolumeOptions parseVolume(const VolumeArguments& arguments) {
   VolumeOptions volume;
   volume.fill = parseNamed("--fill", kFillNames, arguments.fill);
   volume.edge = parseNamed("--edge", kEdgeNames, arguments.edge);
+  volume.alpha = parseNamed("--alpha", kAlphaNames, arguments.alpha);
   volume.openMesh = parseNamed("--open-mesh", kOpenMeshNames, arguments.openMesh);
   volume.compression = parseNamed("--compression", kCompressionNames, arguments.compression);
   volume.target = parseNamed("--target", kTargetNames, arguments.target);

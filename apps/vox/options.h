@@ -76,12 +76,12 @@ void addVoxelizationOptions(const Command& command, VoxelizationArguments& argum
 std::optional<StopRule> parseUntil(const VoxelizationArguments& arguments);
 Separation parseSeparation(const VoxelizationArguments& arguments);
 
-/// --fill, --edge, --gain, --open-mesh, --close, --band, --tolerance, --half, --compression,
-/// --target and
-/// --up, as typed.
+/// --fill, --edge, --alpha, --gain, --open-mesh, --close, --band, --tolerance, --half,
+/// --compression, --target and --up, as typed.
 struct VolumeArguments {
   std::string fill;
   std::string edge;
+  std::string alpha;
   std::string openMesh;
   std::string compression;
   std::string target;

@@ -119,7 +119,8 @@ void refuse(const std::vector<Option>& given, const std::string& input, const ch
 
 bool hasColors(const Scene& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& object) {
-    return object.texture || !object.mesh.pointColors.empty() || !object.mesh.faceColors.empty();
+    return object.texture || !object.mesh.pointColors.empty() || !object.mesh.faceColors.empty() ||
+           !object.mesh.attributes.looks.empty();
   });
 }
 
@@ -243,7 +244,7 @@ void addMeshOptions(const Command& command, RenderArguments& options) {
   addSubmeshOptions(command, options.conversion.submeshes);
   command
       .add("--texture", options.conversion.texture,
-           "Solid texture of all objects, as for vox convert (default: the scene's, or the "
+           "Texture of all objects, as for vox convert (default: the scene's, or the "
            "colours of the mesh)")
       .type("SPEC")
       .group("Texture");

@@ -100,6 +100,8 @@ std::vector<ObjectCheck> checkObjects(const openvdb::MaskTree& voxels, const Sce
 void verify(const Conversion& conversion, const Scene& scene, const Request& request) {
   if (request.crops())
     throw UsageError("--verify needs the whole surface: leave it out, or --bounds and --clip");
+  if (request.volume.alpha == Alpha::kCut)
+    throw UsageError("--verify needs the whole surface: leave it out, or --alpha cut");
   openvdb::MaskTree::Ptr voxels;
   for (const auto& grid : conversion.grids) {
     for (const LintFinding& finding : lintGrid(*grid))

@@ -8,6 +8,7 @@
 namespace vox {
 
 using Vec2d = Eigen::Vector2d;
+using Vec2f = Eigen::Vector2f;
 using Vec3d = Eigen::Vector3d;
 using Vec3f = Eigen::Vector3f;
 using Vec4f = Eigen::Vector4f;

@@ -5,6 +5,7 @@
 #include "libvox/core/error.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/mesh_formats.h"
+#include "libvox/io/read_materials.h"
 #include "libvox/io/text_scanner.h"
 
 #include <algorithm>
@@ -112,7 +113,9 @@ void checkFaces(const PolygonMesh& mesh, const std::string& fileName) {
 PolygonMesh readMesh(const fs::path& file, ReadReport& report) {
   requireInputFile(file);
   requireMeshExtension(file);
-  return parseMesh(file, contentsOf(file), report);
+  PolygonMesh mesh = parseMesh(file, contentsOf(file), report);
+  readMaterials(file, mesh, report);
+  return mesh;
 }
 
 PolygonMesh readMesh(const fs::path& file) {

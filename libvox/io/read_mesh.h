@@ -21,13 +21,15 @@ inline constexpr double kMaxCoordinate = 1e15;
 /// an error only if a face uses it. The result has at least one face; each face has at least 3
 /// corners; every index is in range; every coordinate is finite and at most kMaxCoordinate in size.
 ///
+/// The materials of an OBJ file are read from the files that it names (readMaterials).
+///
 /// @throws InputError  the file is missing, a directory, unreadable, of unknown extension, or its
 ///   text is malformed. The message starts with "FILE:LINE: " (text) or "FILE: " (binary).
 /// @param report  gets the oddities of the file
 PolygonMesh readMesh(const std::filesystem::path& file, ReadReport& report);
 PolygonMesh readMesh(const std::filesystem::path& file);
 
-/// Reads a polygon mesh from the content of a file.
+/// Reads a polygon mesh from the content of a file, without its material files.
 /// @param file  gives the format by its extension, and is named in messages
 /// @throws InputError  as readMesh
 PolygonMesh parseMesh(const std::filesystem::path& file, std::string_view content,

@@ -2,6 +2,7 @@
 
 #include "libvox/io/read_mtl.h"
 
+#include "libvox/io/companion_file.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/text_scanner.h"
 
@@ -57,17 +58,6 @@ bool isNumber(std::string_view word) {
   double value = 0;
   const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc{} && stop == word.data() + word.size();
-}
-
-bool isWindowsRoot(std::string_view path) {
-  return path.starts_with("\\\\") || (path.size() > 1 && path[1] == ':');
-}
-
-/// The path of an image, from its text in an MTL file in a folder.
-fs::path imagePath(std::string_view text, const fs::path& folder) {
-  std::string path(text);
-  std::replace(path.begin(), path.end(), '\\', '/');
-  return folder / (isWindowsRoot(text) ? path.substr(path.find_last_of("/:") + 1) : path);
 }
 
 class MtlParser {
@@ -155,7 +145,7 @@ void MtlParser::readImage(Material& material) {
   }
   const std::string_view name = materialName(line);
   if (name.empty()) return;
-  image.file = imagePath(name, folder_).string();
+  image.file = companionPath(name, folder_).string();
   material.image = std::move(image);
 }
 
@@ -187,11 +177,7 @@ std::vector<Material> readMtl(const fs::path& file) {
   std::vector<Material> materials = parseMtl(contentsOf(file), file);
   for (Material& material : materials) {
     if (!material.image) continue;
-    const fs::path path = material.image->file;
-    const fs::path beside = file.parent_path() / path.filename();
-    std::error_code ignored;
-    if (!fs::exists(path, ignored) && fs::exists(beside, ignored))
-      material.image->file = beside.string();
+    material.image->file = foundCompanion(material.image->file, file.parent_path()).string();
   }
   return materials;
 }

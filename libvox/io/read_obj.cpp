@@ -3,14 +3,18 @@
 // Source: Wavefront Advanced Visualizer manual, appendix B1 "Object files"; the vertex colours that
 // many programs append to v lines; and those that ZBrush writes into comments:
 //   #MRGB MMRRGGBBMMRRGGBB...   mask and colour of each vertex, from the first on, hexadecimal
+// Materials (mtllib) are read by read_materials.
 
 #include "libvox/core/error.h"
+#include "libvox/io/face_set_builder.h"
 #include "libvox/io/file_colors.h"
 #include "libvox/io/mesh_formats.h"
+#include "libvox/io/read_mtl.h"
 #include "libvox/io/text_scanner.h"
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -37,6 +41,10 @@ class ObjParser {
                       scan_.gluedComments());
     FileColors& colors = colors_.empty() ? commentColors_ : colors_;
     mesh_.pointColors = colors.takeLinear(mesh_.pointCount(), log_.report);
+    mesh_.attributes.objects = objects_.take(mesh_.faceCount());
+    mesh_.attributes.groups = groups_.take(mesh_.faceCount());
+    mesh_.attributes.materials = materials_.take(mesh_.faceCount());
+    takeTexcoords();
     return std::move(mesh_);
   }
 
@@ -48,14 +56,18 @@ class ObjParser {
   };
 
   void readLine();
-  void readName();
+  std::string readName();
+  void readMaterialFiles();
   void readGroup();
   void readPoint();
   void readFace();
   void readCommentColors();
   void explainNoFaces() const;
+  void readTexcoord();
   Index readCorner(std::string_view corner);
-  void checkTextureAndNormal(std::string_view indices) const;
+  void readTextureAndNormal(std::string_view indices);
+  void setTexcoord(std::int64_t index);
+  void takeTexcoords();
   void checkForwardReferences() const;
 
   TextScanner scan_;
@@ -68,6 +80,10 @@ class ObjParser {
   bool hasGroups_ = false;
   std::uint32_t group_ = 0;
   std::vector<ForwardReference> forward_;  // only those with a larger point than all before
+  FaceSetBuilder objects_, groups_, materials_;
+  std::vector<Vec2f> texcoords_;
+  std::vector<Index> cornerTexcoords_;    // per corner so far, or fewer: the others have none
+  std::size_t firstForwardTexcoord_ = 0;  // line
 };
 
 void ObjParser::readLine() {
@@ -77,8 +93,16 @@ void ObjParser::readLine() {
     readPoint();
   } else if (is("f", "fo")) {
     readFace();
-  } else if (is("mtllib", "usemtl", "o", "g")) {
-    readName();
+  } else if (is("vt")) {
+    readTexcoord();
+  } else if (is("usemtl")) {
+    materials_.begin(readName(), mesh_.faceCount());
+  } else if (is("o")) {
+    objects_.begin(readName(), mesh_.faceCount());
+  } else if (is("g")) {
+    groups_.begin(readName(), mesh_.faceCount());
+  } else if (is("mtllib")) {
+    readMaterialFiles();
   } else if (is("s")) {
     readGroup();
   } else if (is("curv", "curv2", "surf")) {
@@ -91,9 +115,32 @@ void ObjParser::readLine() {
 }
 
 // Names may be paths of Windows, so a backslash at the end joins nothing.
-void ObjParser::readName() {
+std::string ObjParser::readName() {
   std::string_view name = scan_.restOfLine();
   if (name.ends_with('\\')) log_.report.add(Oddity::kBackslashName, scan_.line());
+  return std::string(materialName(name));
+}
+
+// Line "mtllib FILE ...". Names may have blanks, so the line may be one name or several.
+void ObjParser::readMaterialFiles() {
+  std::string names = readName();
+  if (!names.empty()) log_.report.materialFiles.push_back(std::move(names));
+}
+
+// Line "vt u [v [w]]".
+void ObjParser::readTexcoord() {
+  Vec3d texcoord = Vec3d::Zero();
+  int count = 0;
+  for (auto token = scan_.token(); !token.empty(); token = scan_.token(), ++count) {
+    const double number = scan_.coordinate(token);
+    if (count < 3) texcoord[count] = number;
+  }
+  if (count < 1 || count > 3)
+    scan_.fail("texture coordinate with " + std::to_string(count) + " numbers; expected u v");
+  const auto number = static_cast<std::uint64_t>(texcoords_.size());
+  texcoords_.emplace_back(texcoord.head<2>().cast<float>());
+  if (!texcoord.head<2>().allFinite())
+    log_.report.add(Oddity::kUndefinedTexcoord, scan_.line(), number);
 }
 
 // Line "s N", "s on" or "s off": the smoothing group of the faces that follow. 0, and anything that
@@ -167,6 +214,7 @@ void ObjParser::readFace() {
   const std::size_t corners = mesh_.faceVertices.size() - first;
   if (corners < 3) {
     mesh_.faceVertices.resize(first);
+    cornerTexcoords_.resize(std::min(cornerTexcoords_.size(), first));
     log_.report.add(Oddity::kShortFace, line);
     return;
   }
@@ -181,7 +229,7 @@ void ObjParser::readFace() {
 // the last point.
 Index ObjParser::readCorner(std::string_view corner) {
   const std::size_t slash = std::min(corner.find('/'), corner.size());
-  checkTextureAndNormal(corner.substr(slash));
+  readTextureAndNormal(corner.substr(slash));
   const std::int64_t index = scan_.integer(corner.substr(0, slash));
   const auto pointCount = static_cast<std::int64_t>(mesh_.points.size());
 
@@ -197,18 +245,47 @@ Index ObjParser::readCorner(std::string_view corner) {
   return static_cast<Index>(index > 0 ? index - 1 : pointCount + index);
 }
 
-// Checks the part of a corner from its first slash on. Texture and normal are not used, so their
-// range does not matter; but they must be numbers, else the file is damaged.
-void ObjParser::checkTextureAndNormal(std::string_view indices) const {
+// Reads the part of a corner from its first slash on. Normals are not used, so their range does not
+// matter; but they must be numbers, else the file is damaged.
+void ObjParser::readTextureAndNormal(std::string_view indices) {
   int count = 0;
   while (!indices.empty()) {
     indices.remove_prefix(1);
     const std::size_t length = std::min(indices.find('/'), indices.size());
-    if (length > 0) scan_.integer(indices.substr(0, length));
+    if (length > 0) {
+      const std::int64_t index = scan_.integer(indices.substr(0, length));
+      if (count == 0) setTexcoord(index);
+    }
     indices.remove_prefix(length);
     ++count;
   }
   if (count > 2) scan_.fail("corner with " + std::to_string(count) + " slashes; expected v/vt/vn");
+}
+
+// Notes the texture coordinate of the corner that is being read. It may follow later in the file.
+void ObjParser::setTexcoord(std::int64_t index) {
+  const auto count = static_cast<std::int64_t>(texcoords_.size());
+  const std::int64_t number = index > 0 ? index - 1 : count + index;
+  if (index == 0 || number < 0 || number >= std::int64_t{kNone}) {
+    log_.report.add(Oddity::kUndefinedTexcoord, scan_.line());
+    return;
+  }
+  if (number >= count && firstForwardTexcoord_ == 0) firstForwardTexcoord_ = scan_.line();
+  cornerTexcoords_.resize(mesh_.faceVertices.size(), kNone);
+  cornerTexcoords_.push_back(static_cast<Index>(number));
+}
+
+void ObjParser::takeTexcoords() {
+  if (cornerTexcoords_.empty()) return;
+  cornerTexcoords_.resize(mesh_.cornerCount(), kNone);
+  const Vec2f none = Vec2f::Constant(std::numeric_limits<float>::quiet_NaN());
+  std::vector<Vec2f>& ofCorners = mesh_.attributes.texcoords;
+  ofCorners.reserve(cornerTexcoords_.size());
+  for (const Index number : cornerTexcoords_) {
+    if (number != kNone && number >= texcoords_.size())
+      log_.report.add(Oddity::kUndefinedTexcoord, firstForwardTexcoord_);
+    ofCorners.push_back(number < texcoords_.size() ? texcoords_[number] : none);
+  }
 }
 
 void ObjParser::checkForwardReferences() const {

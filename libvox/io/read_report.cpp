@@ -22,6 +22,8 @@ constexpr std::array<Words, kOddityCount> kWords = {{
     {"ignored", "byte", "bytes", " after the last face"},
     {"clamped", "colour value", "colour values", " above full brightness"},
     {"ignored", "line", "lines", " of #MRGB colours that are not 8 hexadecimal digits each"},
+    {"ignored", "texture coordinate", "texture coordinates",
+     " that are not finite or do not exist"},
     {nullptr, "colour", "colours", " that only some programs write in this way"},
     {nullptr, "keyword", "keywords", " without a blank before its number"},
     {nullptr, "face", "faces", " over several lines"},

@@ -4,18 +4,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace vox {
 
 /// What the readers accept though the definition of the format does not have it.
 enum class Oddity {
-  kShortFace,       ///< a face of fewer than 3 corners, dropped
-  kUndefinedPoint,  ///< a vertex at NaN or infinity without a face; its position becomes 0
-  kUndefinedFacet,  ///< an STL facet with a coordinate that is NaN or infinite, dropped
-  kFreeForm,        ///< a curve or surface beside the polygons, ignored
-  kTrailingBytes,   ///< content after the last element, ignored
-  kBrightColor,     ///< a colour value above full brightness, clamped
-  kDamagedColors,   ///< a line of colours that cannot be read, ignored
+  kShortFace,          ///< a face of fewer than 3 corners, dropped
+  kUndefinedPoint,     ///< a vertex at NaN or infinity without a face; its position becomes 0
+  kUndefinedFacet,     ///< an STL facet with a coordinate that is NaN or infinite, dropped
+  kFreeForm,           ///< a curve or surface beside the polygons, ignored
+  kTrailingBytes,      ///< content after the last element, ignored
+  kBrightColor,        ///< a colour value above full brightness, clamped
+  kDamagedColors,      ///< a line of colours that cannot be read, ignored
+  kUndefinedTexcoord,  ///< a texture coordinate at NaN or infinity, or one that does not exist
   // Understood without loss:
   kForeignColor,   ///< a colour by a name, of a type or at a place that only some programs use
   kGluedKeyword,   ///< a keyword followed by its number without a blank: OFF8
@@ -23,7 +25,7 @@ enum class Oddity {
   kGluedComment,   ///< a comment right after an index or number: 7#
   kBackslashName,  ///< a name that ends with a backslash, which is no continuation
 };
-inline constexpr std::size_t kOddityCount = 12;
+inline constexpr std::size_t kOddityCount = 13;
 
 /// The oddities of a mesh file, by kind.
 struct ReadReport {
@@ -35,6 +37,9 @@ struct ReadReport {
     std::uint64_t element = kNoElement;  ///< number of the first, from 0
   };
   std::string file;
+  /// Material files: as the file names them, then the paths of those that were read.
+  std::vector<std::string> materialFiles{};
+  std::vector<std::string> materialProblems{};  ///< what is wrong with them, one line each
   std::array<Count, kOddityCount> counts{};
 
   /// Notes an oddity. The first of each kind keeps its place.

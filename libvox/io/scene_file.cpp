@@ -57,6 +57,7 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
   VolumeOptions volume;
   readNamed(text, table, "fill", kFillNames, volume.fill);
   readNamed(text, table, "edge", kEdgeNames, volume.edge);
+  readNamed(text, table, "alpha", kAlphaNames, volume.alpha);
   readNamed(text, table, "open_mesh", kOpenMeshNames, volume.openMesh);
   readNamed(text, table, "compression", kCompressionNames, volume.compression);
   readNamed(text, table, "target", kTargetNames, volume.target);
@@ -73,10 +74,11 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[convert]",
-                   {"dim",       "voxel_size", "bounds",      "grids",           "fill",
-                    "edge",      "gain",       "open_mesh",   "close",           "band",
-                    "tolerance", "half",       "compression", "target",          "up",
-                    "until",     "voxelize",   "weld",        "drop_components", "strict"});
+                   {"dim",   "voxel_size", "bounds",   "grids",       "fill",
+                    "edge",  "alpha",      "gain",     "open_mesh",   "close",
+                    "band",  "tolerance",  "half",     "compression", "target",
+                    "up",    "until",      "voxelize", "weld",        "drop_components",
+                    "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -143,6 +145,8 @@ Scene readScene(const fs::path& file, std::optional<double> scale) {
   SceneObject& object = scene.objects.emplace_back();
   object.name = file.stem().string();
   object.mesh = readMeshInto(hash, file, object.reading);
+  const std::vector<std::string>& materials = object.reading.materialFiles;
+  scene.files.insert(scene.files.end(), materials.begin(), materials.end());
   scaleAll(scene, scale);
   scene.inputHash = hash.hex();
   return scene;

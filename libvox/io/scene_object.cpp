@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/io/input_file.h"
+#include "libvox/io/read_materials.h"
 #include "libvox/io/read_mesh.h"
 
 #include <Eigen/Geometry>
@@ -74,9 +75,13 @@ Transform readTransform(const SceneText& text, const toml::table& table) {
 }
 
 void reverseFaces(PolygonMesh& mesh) {
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-    std::reverse(mesh.faceVertices.begin() + mesh.faceOffsets[f] + 1,
-                 mesh.faceVertices.begin() + mesh.faceOffsets[f + 1]);
+  const auto reverse = [&](auto& ofCorners) {
+    for (Index f = 0; f < mesh.faceCount(); ++f)
+      std::reverse(ofCorners.begin() + mesh.faceOffsets[f] + 1,
+                   ofCorners.begin() + mesh.faceOffsets[f + 1]);
+  };
+  reverse(mesh.faceVertices);
+  if (!mesh.attributes.texcoords.empty()) reverse(mesh.attributes.texcoords);
 }
 
 void transformObject(const SceneText& text, const toml::node& node, SceneObject& object) {
@@ -101,7 +106,10 @@ PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& sce
     const fs::path file = text.file.parent_path() / requireString(text, *mesh, "mesh");
     scene.files.push_back(file);
     try {
-      return readMeshInto(text.hash, file, report);
+      PolygonMesh read = readMeshInto(text.hash, file, report);
+      scene.files.insert(scene.files.end(), report.materialFiles.begin(),
+                         report.materialFiles.end());
+      return read;
     } catch (const InputError& error) {
       text.fail(*mesh, std::string("mesh: ") + error.what());
     }
@@ -190,7 +198,11 @@ TextureSpec readTexture(const SceneText& text, const toml::node& node) {
   const toml::node* at = &node;  // the node that an error is about
   try {
     const auto* table = node.as_table();
-    if (table == nullptr) return textureNamed(requireString(text, node, "texture"));
+    if (table == nullptr) {
+      const TextureSpec texture = textureNamed(requireString(text, node, "texture"));
+      requireComplete(texture);
+      return texture;
+    }
     const auto* kind = table->get("kind");
     if (kind == nullptr) text.fail(node, "a texture needs a kind, one of " + allTextureNames());
     at = kind;
@@ -201,6 +213,9 @@ TextureSpec readTexture(const SceneText& text, const toml::node& node) {
       const std::string name(key.str());
       setTexture(texture, name, textureValue(text, value, name));
     }
+    at = kind;
+    requireComplete(texture);
+    if (!texture.file.empty()) texture.file = (text.file.parent_path() / texture.file).string();
     return texture;
   } catch (const UsageError& error) {
     text.fail(*at, error.what());
@@ -214,7 +229,10 @@ PolygonMesh readMeshInto(ContentHash& hash, const fs::path& file, ReadReport& re
   requireMeshExtension(file);
   const std::string content = contentsOf(file);
   hash.addFile(content);
-  return parseMesh(file, content, report);
+  PolygonMesh mesh = parseMesh(file, content, report);
+  readMaterials(file, mesh, report);
+  for (const std::string& material : report.materialFiles) hash.addFile(contentsOf(material));
+  return mesh;
 }
 
 void scaleObject(SceneObject& object, double scale, const fs::path& file) {

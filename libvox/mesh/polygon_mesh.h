@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/types.h"
+#include "libvox/mesh/mesh_attributes.h"
 
 #include <cstdint>
 #include <span>
@@ -20,6 +21,7 @@ struct PolygonMesh {
   std::vector<Vec3f> pointColors;        ///< V linear colours, 0 to 1, or empty
   std::vector<Vec3f> faceColors;         ///< F linear colours, 0 to 1, or empty
   std::vector<std::uint32_t> faceGroups = {};  ///< F smoothing groups, 0: flat; or empty
+  MeshAttributes attributes = {};              ///< of an input; prepared meshes have none
 
   Index faceCount() const { return static_cast<Index>(faceOffsets.size() - 1); }
   Index cornerCount() const { return static_cast<Index>(faceVertices.size()); }
@@ -40,7 +42,7 @@ struct PolygonMesh {
   }
 };
 
-/// Appends `part` to `all`, without colours and groups.
+/// Appends `part` to `all`, without colours, groups and attributes.
 /// Precondition: together they have fewer than 2^32 - 1 points, faces and corners.
 inline void append(PolygonMesh& all, const PolygonMesh& part) {
   const Index firstPoint = all.pointCount();

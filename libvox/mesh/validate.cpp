@@ -114,6 +114,26 @@ void requireValidOffsets(const PolygonMesh& mesh) {
   }
 }
 
+void requireValidSets(const PolygonMesh& mesh, const FaceSets& sets, const char* name) {
+  if (!sets.empty() && sets.ofFaces.size() != mesh.faceCount())
+    throw MeshError(std::string(name) + " must have one number per face, or none");
+  for (Index f = 0; f < sets.ofFaces.size(); ++f)
+    if (sets.ofFaces[f] != kNone && sets.ofFaces[f] >= sets.names.size())
+      throw MeshError("face " + str(f) + " is in number " + str(sets.ofFaces[f]) + " of " +
+                      str(sets.names.size()) + " " + name);
+}
+
+void requireValidAttributes(const PolygonMesh& mesh) {
+  const MeshAttributes& attributes = mesh.attributes;
+  if (!attributes.texcoords.empty() && attributes.texcoords.size() != mesh.cornerCount())
+    throw MeshError("texcoords must have one pair per corner, or none");
+  requireValidSets(mesh, attributes.objects, "objects");
+  requireValidSets(mesh, attributes.groups, "groups");
+  requireValidSets(mesh, attributes.materials, "materials");
+  if (!attributes.looks.empty() && attributes.looks.size() != attributes.materials.names.size())
+    throw MeshError("looks must have one material per name, or none");
+}
+
 }  // namespace
 
 std::string defectName(DefectKind kind) {
@@ -156,6 +176,7 @@ void requireValidArrays(const PolygonMesh& mesh) {
     throw MeshError("pointColors and faceColors must have one colour per point and face, or none");
   if (!fits(mesh.faceGroups, mesh.faceCount()))
     throw MeshError("faceGroups must have one group per face, or none");
+  requireValidAttributes(mesh);
   for (Index v = 0; v < mesh.pointCount(); ++v)
     if (!mesh.points[v].allFinite())
       throw MeshError("vertex " + str(v) + " has a coordinate that is not finite");

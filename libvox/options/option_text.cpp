@@ -39,6 +39,7 @@ void forEachField(Options& options, Visit&& visit) {
   visit("texture", options.texture);
   visit("fill", options.volume.fill, kFillNames);
   visit("edge", options.volume.edge, kEdgeNames);
+  visit("alpha", options.volume.alpha, kAlphaNames);
   visit("gain", options.volume.gain);
   visit("open-mesh", options.volume.openMesh, kOpenMeshNames);
   visit("close", options.volume.close);

@@ -134,12 +134,16 @@ void setSpace(TextureSpec& t, std::string_view v) {
   if (v != "object" && v != "world") refuse("object or world", v);
   t.inWorld = v == "world";
 }
+void setWrap(TextureSpec& t, std::string_view v) {
+  if (v != "repeat" && v != "clamp") refuse("repeat or clamp", v);
+  t.clamp = v == "clamp";
+}
 std::string optionalText(const std::optional<double>& value) {
   return value ? numberText(*value) : "";
 }
 
 constexpr std::string_view kAnyNumber = "a number";
-constexpr std::array<Parameter, 10> kParameters = {{
+constexpr std::array<Parameter, 12> kParameters = {{
     {"scale",
      [](TextureSpec& t, std::string_view v) {
        t.scale = parseNumber(v, kLeastScale, kMostLength, "a number above 0");
@@ -168,6 +172,9 @@ constexpr std::array<Parameter, 10> kParameters = {{
     {"mortar", setMortar, [](const TextureSpec& t) { return numberText(t.mortar); }},
     {"colors", [](TextureSpec& t, std::string_view v) { t.colors = parseColors(v); },
      [](const TextureSpec& t) { return colorsText(t.colors); }},
+    {"file", [](TextureSpec& t, std::string_view v) { t.file = v; },
+     [](const TextureSpec& t) { return t.file; }},
+    {"wrap", setWrap, [](const TextureSpec& t) { return std::string(t.clamp ? "clamp" : ""); }},
 }};
 
 const Parameter& parameterNamed(std::string_view name) {
@@ -188,7 +195,7 @@ struct Kind {
 };
 
 constexpr double kMortar = 0.15;
-constexpr std::array<Kind, 7> kKinds = {{
+constexpr std::array<Kind, 8> kKinds = {{
     {"checker", TextureKind::kChecker, "scale space colors", "#f2f2f2/#c03a2b", 0, 1},
     {"stripes", TextureKind::kStripes, "scale axis turbulence octaves seed space colors",
      "#f2f2f2/#2f6db3", 0, 1},
@@ -200,6 +207,7 @@ constexpr std::array<Kind, 7> kKinds = {{
     {"gradient", TextureKind::kGradient, "axis from to space colors", "#203080/#f0c040", 0, 1},
     {"brick", TextureKind::kBrick, "scale mortar seed space colors", "#9c4a34/#b3593d/#d8d2c4", 0,
      1},
+    {"image", TextureKind::kImage, "file wrap", "", 0, 1},
 }};
 
 const Kind& tableOf(TextureKind kind) {
@@ -231,7 +239,7 @@ TextureSpec textureNamed(std::string_view name) {
   texture.turbulence = kind->turbulence;
   texture.octaves = kind->octaves;
   texture.mortar = texture.kind == TextureKind::kBrick ? kMortar : 0;
-  texture.colors = parseColors(kind->colors);
+  if (!kind->colors.empty()) texture.colors = parseColors(kind->colors);
   return texture;
 }
 
@@ -249,12 +257,18 @@ void setTexture(TextureSpec& texture, std::string_view key, std::string_view val
   }
 }
 
+void requireComplete(const TextureSpec& texture) {
+  if (texture.kind == TextureKind::kImage && texture.file.empty())
+    throw UsageError("texture image needs a file: image:file=wood.png");
+}
+
 TextureSpec parseTexture(std::string_view text) {
   const std::size_t colon = std::min(text.find(':'), text.size());
   TextureSpec texture = textureNamed(text.substr(0, colon));
-  if (colon == text.size()) return texture;
   std::vector<std::string_view> said;
-  for (const std::string_view setting : split(text.substr(colon + 1), ',')) {
+  const bool plain = colon == text.size();
+  for (const std::string_view setting :
+       plain ? std::vector<std::string_view>{} : split(text.substr(colon + 1), ',')) {
     const std::size_t equals = std::min(setting.find('='), setting.size());
     const std::string_view key = setting.substr(0, equals);
     if (std::find(said.begin(), said.end(), key) != said.end())
@@ -262,6 +276,7 @@ TextureSpec parseTexture(std::string_view text) {
     said.push_back(key);
     setTexture(texture, key, setting.substr(std::min(equals + 1, setting.size())));
   }
+  requireComplete(texture);
   return texture;
 }
 

@@ -10,10 +10,10 @@
 
 namespace vox {
 
-/// Kinds of solid textures: patterns in space (volume/texture.h).
-enum class TextureKind { kChecker, kStripes, kRings, kMarble, kNoise, kGradient, kBrick };
+/// Kinds of textures: patterns in space (volume/texture.h), and images (volume/image_texture.h).
+enum class TextureKind { kChecker, kStripes, kRings, kMarble, kNoise, kGradient, kBrick, kImage };
 
-/// Parameters of a solid texture. Lengths are in units of the texture's space.
+/// Parameters of a texture. Lengths are in units of the texture's space.
 struct TextureSpec {
   TextureKind kind = TextureKind::kChecker;
   bool inWorld = false;            ///< its space: the world; false: the object, so that it moves
@@ -28,7 +28,9 @@ struct TextureSpec {
   std::optional<double> from, to;  ///< begin and end of a gradient along the axis; nothing: the
                                    ///< ends of the object
   double mortar = 0;               ///< thickness of the joints in heights of a brick, 0 to 1
-  std::vector<Vec3d> colors;       ///< kLeastColors to kMostColors, linear, 0 to 1
+  std::vector<Vec3d> colors;       ///< kLeastColors to kMostColors, linear, 0 to 1; none: an image
+  std::string file;                ///< of an image
+  bool clamp = false;              ///< an image ends at its rim; false: it repeats
 
   bool operator==(const TextureSpec&) const = default;
 };
@@ -47,12 +49,16 @@ TextureSpec textureNamed(std::string_view name);
 /// Sets one parameter, given as in scenes and on the command line.
 /// @param key    name of the parameter, such as "scale"
 /// @param value  a number; "object" or "world"; an axis x, y, z or X:Y:Z; colours R:G:B (linear, 0
-///   to 1) or #rrggbb (sRGB) with / between them
+///   to 1) or #rrggbb (sRGB) with / between them; "repeat" or "clamp"
 /// @throws UsageError  the kind has no such parameter, or the value is wrong
 void setTexture(TextureSpec& texture, std::string_view key, std::string_view value);
 
+/// @throws UsageError  an image has no file
+void requireComplete(const TextureSpec& texture);
+
 /// The texture of a text KIND or KIND:key=value,key=value, such as "marble:scale=0.2,seed=3".
-/// @throws UsageError  as textureNamed and setTexture, or a parameter is given twice
+/// @throws UsageError  as textureNamed, setTexture and requireComplete, or a parameter is given
+/// twice
 TextureSpec parseTexture(std::string_view text);
 
 /// Text from which parseTexture makes the same texture.

@@ -34,6 +34,13 @@ inline constexpr NameTable<OpenMesh, 3> kOpenMeshNames = {{{OpenMesh::kError, "e
                                                            {OpenMesh::kSurface, "surface"},
                                                            {OpenMesh::kUnsigned, "unsigned"}}};
 
+/// Whether the surface is there where its images and materials are transparent.
+enum class Alpha {
+  kKeep,  ///< transparency is not used
+  kCut,   ///< a coverage below 1/2 is a hole
+};
+inline constexpr NameTable<Alpha, 2> kAlphaNames = {{{Alpha::kKeep, "keep"}, {Alpha::kCut, "cut"}}};
+
 /// Lossless compression of the values of a file.
 enum class Compression { kBlosc, kZip, kPlain };
 inline constexpr NameTable<Compression, 3> kCompressionNames = {
@@ -81,6 +88,7 @@ struct VolumeOptions {
   std::optional<Fill> fill;                ///< default: kSurface
   std::optional<Edge> edge;                ///< default: defaultEdge(target)
   std::optional<double> gain;              ///< value of `density` at its voxels; see densityValue()
+  std::optional<Alpha> alpha;              ///< default: kKeep
   std::optional<OpenMesh> openMesh;        ///< default: kSurface
   std::optional<int> close;                ///< voxels; default: 0, nothing is closed
   std::optional<BandWidths> band;          ///< default: kDefaultBand on both sides
@@ -95,6 +103,7 @@ struct VolumeOptions {
 struct VolumeSettings {
   Fill fill = Fill::kSurface;
   Edge edge = Edge::kHard;
+  Alpha alpha = Alpha::kKeep;
   OpenMesh openMesh = OpenMesh::kSurface;
   int close = 0;  ///< openings of the voxels that are narrower are closed (volume/close.h)
   BandWidths band = kDefaultBand;

@@ -47,6 +47,7 @@ struct ConvertReport {
   std::vector<ObjectReport> objects;
   std::uint64_t activeVoxels = 0;     ///< of the surfaces; if no grid needed them, of the level set
   std::vector<std::string> warnings;  ///< one line each
+  std::string inputHash;              ///< of the scene, and of the images that were read
   int threads = 0;                    ///< number of threads that the run could use
   double prepareSeconds = 0;
   double surfaceSeconds = 0;  ///< subdivision and voxelization

@@ -15,6 +15,7 @@
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
+#include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/metadata.h"
 #include "libvox/pipeline/polygons.h"
@@ -34,10 +35,11 @@
 namespace vox {
 namespace {
 
-/// True if the grids need each object's voxels separately.
-bool needsObjectsApart(const PreparedScene& prepared, std::span<const GridKind> kinds) {
-  return prepared.surfaces.size() > 1 &&
-         std::find(kinds.begin(), kinds.end(), GridKind::kColor) != kinds.end();
+/// True if each object's voxels are needed separately.
+bool needsObjectsApart(const PreparedScene& prepared, const Request& request) {
+  return prepared.surfaces.size() > 1 && (request.volume.alpha == Alpha::kCut ||
+                                          std::find(request.grids.begin(), request.grids.end(),
+                                                    GridKind::kColor) != request.grids.end());
 }
 
 /// The transform of the output: that of the conversion in the axes of the grid.
@@ -126,6 +128,10 @@ class SceneMarker {
   openvdb::MaskGrid::Ptr take() {
     prepared_.budget.take(grid_.memoryBytes(), "the grid", kScatteredAdvice);
     auto mask = openvdb::MaskGrid::create(apart_ ? all_ : grid_.takeTree());
+    if (!apart_ && request_.volume.alpha == Alpha::kCut) {
+      cutTransparent(mask->tree(), prepared_.surfaces[0], prepared_.budget, progress_);
+      report_.activeVoxels = report_.objects[0].activeVoxels = mask->activeVoxelCount();
+    }
     mask->setTransform(transformOfFile(request_, prepared_.transform));
     return mask;
   }
@@ -161,6 +167,8 @@ class SceneMarker {
   void takeApart(PreparedSurface& surface) {
     prepared_.budget.take(2 * grid_.memoryBytes(), "the grid", kScatteredAdvice);
     surface.voxels = grid_.takeTree();
+    if (request_.volume.alpha == Alpha::kCut)
+      cutTransparent(*surface.voxels, surface, prepared_.budget, progress_);
     all_->topologyUnion(*surface.voxels);
     grid_.setMemoryLimit(prepared_.budget.left());
   }
@@ -178,8 +186,7 @@ class SceneMarker {
 openvdb::MaskGrid::Ptr markObjects(const Scene& scene, const Request& request,
                                    PreparedScene& prepared, Progress& progress,
                                    ConvertReport& report) {
-  SceneMarker marker(request, needsObjectsApart(prepared, request.grids), prepared, progress,
-                     report);
+  SceneMarker marker(request, needsObjectsApart(prepared, request), prepared, progress, report);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     marker.mark(i, scene.objects[i].mesh.cornerCount());
   return marker.take();

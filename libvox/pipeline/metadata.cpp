@@ -22,7 +22,7 @@ openvdb::MetaMap describe(const Scene& scene, const Request& request, const Conv
   insertText("vox_version", version());
   if (!scene.files.empty()) {
     insertText("vox_input", scene.files[0].filename().string());
-    insertText("vox_input_hash", scene.inputHash);
+    insertText("vox_input_hash", report.inputHash);
   }
   insertText(kOptionsMetadata, request.optionText);
   if (report.activeVoxels == 0) return metadata;  // a level set needs none

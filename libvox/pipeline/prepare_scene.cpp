@@ -11,6 +11,7 @@
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
+#include "libvox/pipeline/object_look.h"
 #include "libvox/pipeline/plan.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/work.h"
@@ -46,14 +47,19 @@ void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, Conv
                               " separate faces, each smoothed by itself" + kWhy);
 }
 
+bool hasColorGrid(const Request& request) {
+  return std::find(request.grids.begin(), request.grids.end(), GridKind::kColor) !=
+         request.grids.end();
+}
+
 /// Warns of a grid of colours for objects that have none.
 void warnOfColors(const Scene& scene, const Request& request, ConvertReport& report) {
-  if (std::find(request.grids.begin(), request.grids.end(), GridKind::kColor) ==
-      request.grids.end())
-    return;
+  if (!hasColorGrid(request)) return;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const PolygonMesh& mesh = scene.objects[i].mesh;
-    if (request.objects[i].texture || !mesh.pointColors.empty() || !mesh.faceColors.empty()) return;
+    if (request.objects[i].texture || !mesh.pointColors.empty() || !mesh.faceColors.empty() ||
+        !mesh.attributes.looks.empty())
+      return;
   }
   report.warnings.emplace_back(
       "the input has no colours, so the grid color is grey; --texture gives it a pattern");
@@ -70,8 +76,8 @@ void notePreparation(const PreparedObject& prepared, const GridTransform& transf
 
 /// An object, ready to subdivide in index space.
 PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_t i,
-                              const GridTransform& transform, MemoryBudget& budget,
-                              Progress& progress, ConvertReport& report) {
+                              const GridTransform& transform, ImageReader& images,
+                              MemoryBudget& budget, Progress& progress, ConvertReport& report) {
   const SceneObject& object = scene.objects[i];
   const ObjectRequest& request = all.objects[i];
   ObjectReport& part = report.objects.emplace_back();
@@ -84,8 +90,13 @@ PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_
   notePreparation(prepared, transform, part, report);
   moveToIndexSpace(prepared.base.mesh, transform);
   budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
-  return {object.name, std::move(prepared.base), request.way, all.surface,
-          placedTexture(request.texture, object, transform.turn)};
+  PreparedSurface surface{object.name, std::move(prepared.base), request.way, all.surface,
+                          placedTexture(request.texture, object, transform.turn)};
+  const bool cuts = all.volume.alpha == Alpha::kCut;
+  if ((hasColorGrid(all) || cuts) && !surface.texture)
+    surface.look = lookOf(object, request.texture, prepared.faceOrigin,
+                          std::move(prepared.texcoords), images, report.warnings);
+  return surface;
 }
 
 /// The voxels that a request asks for.
@@ -128,9 +139,11 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
   plan(scene, request, prepared.areas, progress);
   {
     const StageTimer timer(report.prepareSeconds);
+    ImageReader images;
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
       prepared.surfaces.push_back(
-          prepareObject(scene, request, i, transform, budget, progress, report));
+          prepareObject(scene, request, i, transform, images, budget, progress, report));
+    report.inputHash = images.hashWith(scene.inputHash);
     for (PreparedSurface& surface : prepared.surfaces)
       surface.region = prepared.region.grown(kMarginOfFeet);
   }

@@ -4,6 +4,7 @@
 #include "libvox/grid/region.h"
 #include "libvox/options/surface_options.h"
 #include "libvox/pipeline/choose.h"
+#include "libvox/pipeline/surface_look.h"
 #include "libvox/subdivide/level.h"
 #include "libvox/volume/texture.h"
 
@@ -32,6 +33,7 @@ struct PreparedSurface {
   ConversionWay way;
   SurfaceOptions options;  ///< how it is cut into submeshes
   std::optional<PlacedTexture> texture = {};
+  SurfaceLook look = {};
   /// The voxels of this object alone; null if no grid needs the objects separately.
   std::shared_ptr<openvdb::MaskTree> voxels = {};
   Region region = {};  ///< the feet of other voxels are not needed

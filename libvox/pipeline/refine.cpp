@@ -9,6 +9,7 @@
 #include "libvox/core/progress.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/pipeline/work.h"
+#include "libvox/prepare/corner_origin.h"
 #include "libvox/prepare/debris.h"
 #include "libvox/prepare/gaps.h"
 #include "libvox/prepare/sound.h"
@@ -43,8 +44,7 @@ auto namingObject(const Scene& scene, const SceneObject& object, Work&& work) {
 struct ElementOrigin {
   std::vector<Index> weldedTo;  ///< for each input vertex: the one that it was welded to, or itself
   std::vector<Index> points;    ///< for each prepared vertex: an input vertex, or kNone
-  std::vector<Index> faces;     ///< for each prepared face: an input face, of those not dropped
-  std::vector<std::uint32_t> groups;  ///< smoothing groups of those input faces, or empty
+  std::vector<Index> faces;     ///< for each prepared face: an input face
 };
 
 /// Warns of what reading the file of an object has lost. Strict: refuses a file that is odd at all.
@@ -64,11 +64,19 @@ RepairOptions repairOptionsOf(const ObjectPreparation& preparation) {
   return repair;
 }
 
-/// The mesh of an object without debris.
+/// The mesh of an object without debris, groups and attributes.
 /// @throws MeshError  nothing is left
 PolygonMesh keptMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
                        DebrisReport& report) {
-  if (preparation.dropComponents.dropsNothing()) return object.mesh;
+  if (preparation.dropComponents.dropsNothing()) {
+    PolygonMesh mesh;
+    mesh.points = object.mesh.points;
+    mesh.faceOffsets = object.mesh.faceOffsets;
+    mesh.faceVertices = object.mesh.faceVertices;
+    mesh.pointColors = object.mesh.pointColors;
+    mesh.faceColors = object.mesh.faceColors;
+    return mesh;
+  }
   PolygonMesh kept =
       withoutDebris(object.mesh, preparation.dropComponents, repairOptionsOf(preparation), report);
   if (kept.faceCount() == 0)
@@ -82,14 +90,21 @@ PolygonMesh keptMeshOf(const SceneObject& object, const ObjectPreparation& prepa
   return kept;
 }
 
+/// The origin of elements that were made in two steps.
+std::vector<Index> composed(const std::vector<Index>& first, const std::vector<Index>& second) {
+  std::vector<Index> both(second.size(), kNone);
+  for (std::size_t i = 0; i < second.size(); ++i)
+    if (second[i] < first.size()) both[i] = first[second[i]];
+  return both;
+}
+
 /// The mesh of an object made sound; a warning tells what was done to it.
 PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
                         ElementOrigin& origin, std::vector<std::string>& warnings) {
   DebrisReport debris;
   SoundReport report;
-  PolygonMesh kept = keptMeshOf(object, preparation, debris);
-  origin.groups = std::move(kept.faceGroups);
-  PolygonMesh mesh = soundMesh(std::move(kept), repairOptionsOf(preparation), report);
+  PolygonMesh mesh =
+      soundMesh(keptMeshOf(object, preparation, debris), repairOptionsOf(preparation), report);
   std::string done = summary(report);
   if (preparation.strict && !done.empty())
     throw MeshError("needs repair, which --strict forbids: " + firstAction(report) +
@@ -104,15 +119,8 @@ PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& prep
   origin.weldedTo = std::move(report.repair.weldedTo);
   origin.points = std::move(report.orient.pointOrigin);
   origin.faces = std::move(report.orient.faceOrigin);
+  if (!debris.keptFaces.empty()) origin.faces = composed(debris.keptFaces, origin.faces);
   return mesh;
-}
-
-/// The origin of elements that were made in two steps.
-std::vector<Index> composed(const std::vector<Index>& first, const std::vector<Index>& second) {
-  std::vector<Index> both(second.size(), kNone);
-  for (std::size_t i = 0; i < second.size(); ++i)
-    if (second[i] < first.size()) both[i] = first[second[i]];
-  return both;
 }
 
 /// The edges and vertices that stay sharp. A warning tells of edges that are none.
@@ -123,10 +131,10 @@ SharpFeatures sharpFeaturesOf(const SceneObject& object, const ObjectPreparation
   SharpFeatures sharp = nothingSharp(mesh);
   if (preparation.crease.degrees)
     markByAngle(mesh, adjacency, input, *preparation.crease.degrees, sharp);
-  if (preparation.crease.groups && origin.groups.empty())
+  if (preparation.crease.groups && object.mesh.faceGroups.empty())
     warnings.push_back(object.name + ": has no smoothing groups, so no edge is sharp by group");
   else if (preparation.crease.groups)
-    markByGroups(adjacency, input, origin.groups, sharp);
+    markByGroups(adjacency, input, object.mesh.faceGroups, sharp);
   const std::vector<std::size_t> missing =
       markByPoints(mesh, adjacency, input, preparation.creaseEdges, sharp);
   if (!missing.empty()) {
@@ -271,7 +279,11 @@ Refinement refineAll(const Scene& scene, int levels,
 std::uint64_t bytesOf(const PolygonMesh& mesh) {
   return mesh.points.size() * sizeof(Vec3d) +
          (mesh.faceOffsets.size() + mesh.faceVertices.size()) * sizeof(Index) +
-         (mesh.pointColors.size() + mesh.faceColors.size()) * sizeof(Vec3f);
+         (mesh.pointColors.size() + mesh.faceColors.size()) * sizeof(Vec3f) +
+         mesh.attributes.texcoords.size() * sizeof(Vec2f) +
+         (mesh.attributes.objects.ofFaces.size() + mesh.attributes.groups.ofFaces.size() +
+          mesh.attributes.materials.ofFaces.size()) *
+             sizeof(Index);
 }
 
 std::uint64_t bytesOf(const SubdivisionLevel& level) {
@@ -349,8 +361,11 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
       prepared.creases = cut.counts;
       origin.points = composed(origin.points, pointBeforeCut);
     }
+    prepared.texcoords =
+        followedTexcoords(object.mesh, mesh, {origin.weldedTo, origin.points, origin.faces});
     base = baseLevel(std::move(mesh), preparation.boundary);
     base.seam = std::move(seam);
+    prepared.faceOrigin = std::move(origin.faces);
     progress.check();
     if (!preparation.interpolates()) return;
     progress.done(kPartBeforeInterpolation);

@@ -42,6 +42,8 @@ struct PreparedObject {
   CreaseCounts creases;
   InterpolationReport interpolation;
   std::vector<std::string> warnings;
+  std::vector<Index> faceOrigin;  ///< per face: the face of the object's mesh
+  std::vector<Vec2f> texcoords;   ///< per corner, from the object's mesh; or empty
 };
 
 /// Box of the components of an object that are not dropped, in world units.

@@ -5,6 +5,7 @@
 #include "libvox/core/error.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/options/option_text.h"
+#include "libvox/pipeline/grids.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -48,6 +49,7 @@ VolumeSettings volumeOf(const VolumeOptions& first, const VolumeOptions& second)
     setting = firstSet({first.*option, second.*option}, setting);
   };
   choose(&VolumeOptions::fill, all.fill);
+  choose(&VolumeOptions::alpha, all.alpha);
   choose(&VolumeOptions::openMesh, all.openMesh);
   choose(&VolumeOptions::close, all.close);
   choose(&VolumeOptions::band, all.band);
@@ -70,6 +72,16 @@ std::vector<GridKind> gridsOf(const Scene& scene, const ConvertOptions& options)
   if (options.grids) throw UsageError("--texture needs color among --grids");
   kinds.push_back(GridKind::kColor);
   return kinds;
+}
+
+/// A surface with holes has no inside, and soft values would end beside them.
+void requireCuttable(const Request& request) {
+  if (request.volume.alpha == Alpha::kKeep) return;
+  if (needsInside(request.grids, request.volume))
+    throw UsageError(
+        "--alpha cut makes holes, so nothing has an inside; use --fill surface, and leave surface "
+        "out of --grids");
+  if (request.volume.edge == Edge::kSoft) throw UsageError("--alpha cut needs --edge hard");
 }
 
 std::optional<Box> boundsOf(const std::optional<std::array<double, 6>>& bounds) {
@@ -180,6 +192,7 @@ Request resolve(const Scene& scene, const ConvertOptions& options) {
   request.bounds = boundsOf(options.bounds ? options.bounds : scene.bounds);
   request.clip = options.clip;
   request.grids = gridsOf(scene, options);
+  requireCuttable(request);
   request.optionText = textOf(options, request.resolution, scene.bounds, request.volume);
   requirePreparable(scene, options);
   return request;

@@ -76,7 +76,7 @@ PolygonMesh withoutDebris(const PolygonMesh& mesh, const ComponentLimit& limit,
     if (candidates[components.find(f)].isBelow(limit)) continue;
     kept.addFace(mesh.face(f));
     if (!mesh.faceColors.empty()) kept.faceColors.push_back(mesh.faceColors[f]);
-    if (!mesh.faceGroups.empty()) kept.faceGroups.push_back(mesh.faceGroups[f]);
+    report.keptFaces.push_back(f);
   }
   return kept;
 }

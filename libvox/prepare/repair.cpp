@@ -336,6 +336,8 @@ PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport&
   requireValidArrays(mesh);
   mesh.pointColors.clear();
   mesh.faceColors.clear();
+  mesh.faceGroups.clear();
+  mesh.attributes = {};
   report = RepairReport{};
   report.weldedTo = numbered(mesh.pointCount());
   Draft draft{std::move(mesh), {}, {}, {}};

@@ -92,6 +92,8 @@ double ImageTexture::texelsAcross(const Vec2d& alongA, const Vec2d& alongB) cons
 
 int ImageTexture::samplesAcross(double texels) {
   if (!(texels > 1)) return 1;  // NaN, too
+  constexpr double kMostTexels = 4 * kMostSamples;
+  if (texels > kMostTexels) return kSamplesOfNoise;
   return static_cast<int>(std::min(std::ceil(texels), double{kMostSamples}));
 }
 

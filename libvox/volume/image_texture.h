@@ -28,9 +28,10 @@ class ImageTexture {
   double texelsAcross(const Vec2d& alongA, const Vec2d& alongB) const;
 
   /// Samples along each side that a mean over a part needs: 1 for at most a texel, and at most
-  /// kMostSamples.
+  /// kMostSamples. Images so fine that this is not enough are noise, and few samples do.
   static int samplesAcross(double texels);
-  static constexpr int kMostSamples = 16;
+  static constexpr int kMostSamples = 64;
+  static constexpr int kSamplesOfNoise = 16;
 
   /// Mean over a part of the surface, of n x n samples at the centres of equal parts.
   /// @param uvOf  the texture coordinates of a sample, as Vec2d(double a, double b), from its place

@@ -56,6 +56,8 @@ Vec3d SolidTexture::colorAt(const Vec3d& place) const {
     }
     case TextureKind::kBrick:
       return brickColor(p);
+    case TextureKind::kImage:  // not solid
+      break;
   }
   return Vec3d::Zero();
 }
