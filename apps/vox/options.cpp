@@ -288,7 +288,8 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
 void addFileOptions(const Command& command, VolumeArguments& arguments) {
   command
       .addFlag("--half", arguments.half,
-               "Write values as floats of 16 bits (default: the scene's, or 32 bits)")
+               "Write values as floats of 16 bits; a grid with values that these cannot hold keeps 32, "
+               "with a warning (default: the scene's, or 32 bits)")
       .group("Output");
   command
       .add("--compression", arguments.compression,
