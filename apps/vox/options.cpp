@@ -274,7 +274,7 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .add(
           "--band", [&arguments](const std::string& text) { arguments.band = parseBand(text); },
           "How far from the surface the grid surface holds distances, in voxels: on both sides, or "
-          "inside and outside (default: the scene's, or 3)")
+          "inside and outside, each from 1 to 1000 (default: the scene's, or 3)")
       .type("[IN,]OUT")
       .group("Output");
   command
@@ -287,9 +287,10 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
 
 void addFileOptions(const Command& command, VolumeArguments& arguments) {
   command
-      .addFlag("--half", arguments.half,
-               "Write values as floats of 16 bits; a grid with values that these cannot hold keeps 32, "
-               "with a warning (default: the scene's, or 32 bits)")
+      .addFlag(
+          "--half", arguments.half,
+          "Write values as floats of 16 bits; a grid with values that these cannot hold keeps 32, "
+          "with a warning (default: the scene's, or 32 bits)")
       .group("Output");
   command
       .add("--compression", arguments.compression,
