@@ -244,7 +244,14 @@ expect 0 '' info "$scenes/cube.obj" --crease 89
 grep -q 'creases  *12 sharp edges, 8 corner vertices, 0 darts' stdout || fail "info: no creases"
 expect 0 '' info "$scenes/cube.obj" --crease-edges edges.txt
 grep -q 'creases  *2 sharp edges, 0 corner vertices, 2 darts' stdout || fail "info: no listed creases"
+expect 0 '' info "$scenes/sheet.toml" --boundary corners
+grep -q 'creases  *0 sharp edges, 4 corner vertices, 0 darts' stdout || fail "info: no corners of the boundary"
+expect 2 '--boundary must be one of extend, free, corners' info "$scenes/sheet.toml" --boundary round
 expect 0 '' check sharp.vdb --mesh "$scenes/cube.obj" --ignore no-density
+expect 0 'active voxels' convert "$scenes/cube.obj" -o flat.vdb --dim 20 --crease 40 --until levels=0
+expect 3 'has no smoothing groups, so no edge is sharp by group, which --strict forbids' convert "$scenes/cube.obj" -o no.vdb --dim 20 --crease groups --strict
+printf '0 7\n' >noedge.txt
+expect 3 'the mesh has no edge at 1 of the 1 pairs .*, which --strict forbids' convert "$scenes/cube.obj" -o no.vdb --dim 20 --crease-edges noedge.txt --strict
 expect 0 'sharp.obj: ' subdivide "$scenes/cube.obj" -o sharp.obj --levels 3 --crease 40
 expect 0 '' info sharp.obj
 grep -q 'closed, orientable, genus 0' stdout || fail "subdivide: not joined along creases"
@@ -366,6 +373,16 @@ python3 -c 'import json, sys; sys.exit(json.load(open("widths.json"))["options"]
   fail "band in the report: $(cat widths.json)"
 "$vox" info widths.vdb | grep -q 'band=3.5,5' || fail "no band in the metadata"
 expect 0 '' check widths.vdb --ignore no-density
+for band in 1 2 1,3 3,1; do
+  expect 0 'active voxels' convert "$scenes/cube.toml" -o narrow.vdb --dim 32 --grids surface --band $band --force
+  expect 0 '' check narrow.vdb --ignore no-density
+done
+grep -q 'warning narrow-band: surface: holds distances up to 1 voxel outside' stdout || fail "check: no word of a narrow band: $(cat stdout)"
+expect 0 '' convert "$scenes/cube.toml" -o widths.vdb --dim 32 --grids surface --force --verbose
+grep -q 'not voxelized' stderr || fail "verbose: $(cat stderr)"
+grep -q 'grid surface: [0-9]* active voxels, distances from -.* to ' stderr || fail "verbose: $(cat stderr)"
+! grep -qE ' 0 (submeshes|vertices|active)' stderr || fail "verbose: $(cat stderr)"
+expect 0 'active voxels' convert "$scenes/cube.toml" -o widths.vdb --dim 32 --grids surface --band 3.5,5 --force
 printf '[convert]\ngrids = ["surface"]\nband = [2, 5]\n[[object]]\n%s\n' "$cube" >widths.toml
 expect 0 'active voxels' convert widths.toml -o widths2.vdb --dim 32
 expect 0 '' check widths2.vdb --ignore no-density

@@ -3,6 +3,7 @@
 #include "libvox/core/error.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/io/read_vdb.h"
 #include "libvox/subdivide/doo_sabin.h"
 #include "tests/conversion.h"
 #include "tests/reference.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 #include <sstream>
 #include <string>
@@ -454,6 +456,41 @@ TEST_CASE("the weld tolerance is in world units, whatever the resolution", "[pip
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("falls apart into 6 separate faces") && Contains("--weld"));
   }
+}
+
+TEST_CASE("no value is lost that 16 bits cannot hold", "[pipeline]") {
+  const test::TemporaryFolder folder;
+  const double scale = GENERATE(1.6e-4, 1.0, 1e7);
+  PolygonMesh mesh = test::cube();
+  for (Vec3d& p : mesh.points) p *= scale;
+  ConvertOptions options = maskAt(20);
+  options.grids = std::vector{GridKind::kSurface, GridKind::kDensity, GridKind::kNormal};
+  options.volume.half = true;
+  const Conversion conversion = convert(test::oneObject(mesh), options);
+  writeGrids(folder / "half.vdb", conversion, false);
+  const VdbFile file = readVdb(folder / "half.vdb");
+  const auto gridOf = [&](const std::string& name) {
+    return std::find_if(file.grids.begin(), file.grids.end(),
+                        [&](const NamedGrid& grid) { return grid.name == name; })
+        ->grid;
+  };
+  const double voxelSize = conversion.report.voxelSize;
+  const auto& made = dynamic_cast<const openvdb::FloatGrid&>(*conversion.grids[0]);
+  const auto& read = dynamic_cast<const openvdb::FloatGrid&>(*gridOf("surface"));
+  CHECK(std::abs(made.background() - read.background()) < 0.002 * voxelSize);
+  double most = 0;
+  for (auto value = made.cbeginValueOn(); value; ++value)
+    most = std::max(most, std::abs(double{*value} - read.tree().getValue(value.getCoord())));
+  CHECK(most < 0.002 * voxelSize);
+  CHECK((most == 0) == (scale != 1));
+  const auto& density = dynamic_cast<const openvdb::FloatGrid&>(*gridOf("density"));
+  const double full = conversion.grids[1]->metaValue<float>("vox_gain");
+  CHECK(density.cbeginValueOn().getValue() == Approx(full).epsilon(0.001));
+  CHECK(gridOf("normal")->saveFloatAsHalf());
+  std::vector<std::string> kept;
+  for (const std::string& warning : conversion.report.warnings)
+    if (warning.find("32 bits") != std::string::npos) kept.push_back(warning);
+  CHECK(kept.size() == (scale == 1 ? 0 : 1));  // surface
 }
 
 TEST_CASE("strict conversion takes a sound mesh and refuses any other", "[pipeline][error]") {

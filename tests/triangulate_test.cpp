@@ -258,3 +258,24 @@ TEST_CASE("repeated corners and spikes leave the rest as it is", "[voxelize][tri
   CHECK(triangles.size() == 5);
   CHECK(coverage(spiked, triangles) == Approx(1));
 }
+
+TEST_CASE("corners at one place are no folds, and leave the other triangles as they are",
+          "[voxelize][triangulate]") {
+  const std::vector<Vec3d> triangle = {{0, 0, 0}, {4, 0, 0}, {0, 3, 1}};
+  const std::vector<Vec3d> quad = {{0, 0, 0}, {4, 0, 0}, {4, 4, 1}, {0, 4, 0}};
+  std::mt19937 random(7);
+  for (const auto& corners : {triangle, quad, star(9, random)}) {
+    const double covered = coverage(corners, triangulated(corners).triangles);
+    for (unsigned which = 1; which < 1U << corners.size(); ++which) {
+      std::vector<Vec3d> repeated;
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        repeated.insert(repeated.end(), 1 + (which >> i & 1U) * (1 + i % 2), corners[i]);
+      // The first corner may be at the place of the last.
+      std::rotate(repeated.begin(), repeated.begin() + which % 2, repeated.end());
+      const auto [triangles, fanned] = triangulated(repeated);
+      REQUIRE(fanned == 0);
+      REQUIRE(isDisk(triangles, repeated.size()));
+      REQUIRE(coverage(repeated, triangles) == Approx(covered));
+    }
+  }
+}

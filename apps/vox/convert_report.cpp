@@ -6,7 +6,10 @@
 #include "apps/vox/json.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/version.h"
+#include "libvox/grid/openvdb.h"
 #include "libvox/options/voxelize.h"
+
+#include <openvdb/tools/Count.h>
 
 #include <sstream>
 
@@ -123,8 +126,12 @@ std::string levelsText(const ObjectReport& object) {
 
 std::string objectText(const ObjectReport& object) {
   std::ostringstream text;
-  text << object.name << ": " << counted(object.inputFaces, "face") << ", "
-       << counted(object.submeshes, "submesh", "submeshes") << ", ";
+  text << object.name << ": " << counted(object.inputFaces, "face") << ", ";
+  if (!object.byPolygons && object.vertices == 0) {
+    text << "not voxelized: the level set is measured from the surface itself";
+    return text.str();
+  }
+  text << counted(object.submeshes, "submesh", "submeshes") << ", ";
   if (object.byPolygons)
     text << object.polygons.triangles << " triangles after " << object.levels << " levels (until "
          << stopRuleName(object.until) << "), ";
@@ -133,6 +140,18 @@ std::string objectText(const ObjectReport& object) {
   text << object.activeVoxels << " active voxels";
   if (object.activeVoxels > 0 && object.vertices > 0)
     text << ", " << perVoxel(object) << " vertices per voxel";
+  return text.str();
+}
+
+/// What a grid holds.
+std::string gridText(const openvdb::GridBase& grid) {
+  std::ostringstream text;
+  text << "grid " << grid.getName() << ": " << counted(grid.activeVoxelCount(), "active voxel");
+  if (const auto* numbers = dynamic_cast<const openvdb::FloatGrid*>(&grid)) {
+    const auto range = openvdb::tools::minMax(numbers->tree());
+    text << (grid.getGridClass() == openvdb::GRID_FOG_VOLUME ? ", values" : ", distances")
+         << " from " << range.min() << " to " << range.max();
+  }
   return text.str();
 }
 
@@ -198,6 +217,8 @@ std::vector<std::string> reportLines(const FinishedRun& run) {
         << report.surfaceSeconds << ", grids " << report.gridsSeconds << ", write "
         << run.writeSeconds;
   lines.push_back(times.str());
+  for (std::size_t i = 0; i < run.conversion.grids.size(); ++i)
+    lines.push_back(gridText(*run.conversion.grids[i]));
   std::string memory = "memory: peak " + formatBytes(peakMemory());
   const std::vector<std::string> names = namesOf(run.conversion);
   const std::vector<std::uint64_t> bytes = memoryOf(run.conversion);

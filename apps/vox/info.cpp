@@ -32,6 +32,7 @@ struct InfoArguments {
   bool json = false;
   std::optional<double> scale;
   std::optional<double> weldTolerance;
+  std::string boundary;
   std::string faces;
   CreaseArguments creases;
   std::optional<ComponentLimit> dropComponents;
@@ -263,6 +264,7 @@ Json describe(const std::string& file, const InfoArguments& options) {
   const Scene scene = readScene(file, options.scale);
   PreparationOptions preparation;
   preparation.weldTolerance = options.weldTolerance;
+  preparation.smoothing.boundary = parseBoundary(options.boundary);
   preparation.smoothing.faces = parseFaces(options.faces);
   parseCreases(options.creases, preparation.smoothing);
   requirePreparable(scene, preparation);
@@ -288,6 +290,7 @@ Action addInfo(CLI::App& app) {
   command.add("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)").required();
   command.addFlag("--json", options->json, "Print JSON");
   addScaleOption(command, options->scale);
+  addBoundaryOption(command, options->boundary);
   addCreaseOptions(command, options->creases);
   addFacesOption(command, options->faces);
   addWeldOption(command, options->weldTolerance);

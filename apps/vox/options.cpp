@@ -152,15 +152,23 @@ void addCreaseOptions(const Command& command, CreaseArguments& arguments) {
       .group("Smoothing");
 }
 
-void addSmoothingOptions(const Command& command, SmoothingArguments& arguments) {
+void addBoundaryOption(const Command& command, std::string& boundary) {
   command
-      .add("--boundary", arguments.boundary,
+      .add("--boundary", boundary,
            "Where an open surface ends: at a smooth curve along the boundary of the mesh "
            "(extend), the same but with corners at vertices that only one face has (corners), or "
            "short of it, because smoothing shrinks the surface (free) (default: the scene's, or "
            "extend)")
       .type("extend|corners|free")
       .group("Smoothing");
+}
+
+std::optional<BoundaryRule> parseBoundary(const std::string& boundary) {
+  return parseNamed("--boundary", kBoundaryRuleNames, boundary);
+}
+
+void addSmoothingOptions(const Command& command, SmoothingArguments& arguments) {
+  addBoundaryOption(command, arguments.boundary);
   command
       .add("--interpolate", arguments.interpolate,
            "Vertices that the surface passes through: none, interior, boundary or both "
@@ -205,7 +213,7 @@ void parseCreases(const CreaseArguments& arguments, SmoothingOptions& smoothing)
 
 SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   SmoothingOptions smoothing;
-  smoothing.boundary = parseNamed("--boundary", kBoundaryRuleNames, arguments.boundary);
+  smoothing.boundary = parseBoundary(arguments.boundary);
   smoothing.interpolate = parseNamed("--interpolate", kInterpolateNames, arguments.interpolate);
   smoothing.faces = parseFaces(arguments.faces);
   if (!arguments.vertexFile.empty())
@@ -305,7 +313,7 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
       .add(
           "--band", [&arguments](const std::string& text) { arguments.band = parseBand(text); },
           "How far from the surface the grid surface holds distances, in voxels: on both sides, or "
-          "inside and outside (default: the scene's, or 3)")
+          "inside and outside, each from 1 to 1000 (default: the scene's, or 3)")
       .type("[IN,]OUT")
       .group("Output");
   command
@@ -318,8 +326,10 @@ void addVolumeOptions(const Command& command, VolumeArguments& arguments) {
 
 void addFileOptions(const Command& command, VolumeArguments& arguments) {
   command
-      .addFlag("--half", arguments.half,
-               "Write values as floats of 16 bits (default: the scene's, or 32 bits)")
+      .addFlag(
+          "--half", arguments.half,
+          "Write values as floats of 16 bits; a grid with values that these cannot hold keeps 32, "
+          "with a warning (default: the scene's, or 32 bits)")
       .group("Output");
   command
       .add("--compression", arguments.compression,
@@ -404,8 +414,9 @@ void addStrictOption(const Command& command, std::optional<bool>& strict) {
   command
       .addFlag(
           "--strict", strict,
-          "Refuse a mesh that needs any repair or turning of faces, or whose file is not quite "
-          "of its format (default: the scene's, or repair it and say what was done)")
+          "Refuse a mesh that needs any repair or turning of faces, whose file is not quite of its "
+          "format, or that lacks edges or groups that should be sharp (default: the scene's, or "
+          "repair it and say what was done)")
       .group("Repair");
 }
 

@@ -54,6 +54,11 @@ struct SmoothingArguments {
 };
 void addSmoothingOptions(const Command& command, SmoothingArguments& arguments);
 
+/// --boundary alone.
+void addBoundaryOption(const Command& command, std::string& boundary);
+/// @throws UsageError
+std::optional<BoundaryRule> parseBoundary(const std::string& boundary);
+
 /// --faces alone.
 void addFacesOption(const Command& command, std::string& faces);
 /// @throws UsageError

@@ -4,6 +4,7 @@
 
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
+#include "libvox/foot/band_holes.h"
 #include "libvox/foot/scan_bin.h"
 #include "libvox/grid/leaf_words.h"
 #include "libvox/grid/openvdb.h"
@@ -120,8 +121,12 @@ class BandMaker {
       upper->addChild(page.node);
       page.node = nullptr;
     }
-    if (!options_.unsignedDistance)
-      openvdb::tools::signedFloodFillWithValues(*tree, background_, -insideBackground_, true, 1, 1);
+    const bool hadHoles = closeHoles(*tree, options_) > 0;
+    if (!options_.unsignedDistance) {
+      const openvdb::Index lowest = hadHoles ? 0 : 1;  // levels of the tree; 0: the leaves, too
+      openvdb::tools::signedFloodFillWithValues(*tree, background_, -insideBackground_, true, 1,
+                                                lowest);
+    }
     return {tree, jumps_};
   }
 

@@ -30,7 +30,8 @@ struct Band {
 };
 
 /// Distances to the nearest of some cells, in world units. Voxels whose distance is smaller than
-/// the band are active; the background is the band, inside the surface negative.
+/// the band are active; the background is the band, inside the surface negative. Small holes, of
+/// voxels that no cell answers for, are closed (band_holes.h).
 /// @param bins  cells with a reach of at least the band and the thickness
 /// @param part  the share of this in the current stage of `progress`
 /// Parallel; the same bits for any number of threads.

@@ -173,17 +173,19 @@ bool isBand(const Grid& grid, double inside) {
 }
 
 /// What the checks of OpenVDB find wrong with a level set. The last two of them want the same width
-/// on both sides; a band that vox made with two widths is held against these.
+/// on both sides; a band that vox made with two widths is held against these. Left out is the check
+/// that a band has 3 voxels or more on each side.
 template <class Grid>
 std::string wrongInBand(const Grid& grid) {
-  constexpr std::size_t kChecksButGradient = 8;
-  constexpr std::size_t kChecksButWidths = 6;
-  const std::string wrong = openvdb::tools::checkLevelSet(grid, kChecksButGradient);
-  if (wrong.empty()) return wrong;
+  openvdb::tools::CheckLevelSet<Grid> checks(grid);
+  std::string wrong = checks.checkTransform();
+  if (wrong.empty()) wrong = checks.checkTiles();
+  if (wrong.empty()) wrong = checks.checkFinite();
+  if (!wrong.empty()) return wrong;
+  wrong = checks.checkRange();
+  if (wrong.empty()) wrong = checks.checkInactiveValues();
   const auto inside = recordedInside(grid);
-  if (!inside) return wrong;
-  const std::string other = openvdb::tools::checkLevelSet(grid, kChecksButWidths);
-  return !other.empty() || isBand(grid, *inside * grid.voxelSize()[0]) ? other : wrong;
+  return inside && isBand(grid, *inside * grid.voxelSize()[0]) ? std::string() : wrong;
 }
 
 /// What is wrong with a level set; empty: nothing. The last check of OpenVDB, of the gradient, is
@@ -212,6 +214,13 @@ void lintScalars(const Grid& grid, const Values& values, LintFindings& findings)
       const bool thin = std::isfinite(values.least) && values.least > -grid.voxelSize()[0] / 4;
       const std::string wrong = wrongInLevelSet(grid, thin);
       if (!wrong.empty()) findings.add("level-set", "is no valid level set: " + wrong);
+      constexpr double kLeastWidth = 3, kRounding = 1e-4;  // voxels
+      const double width = background / grid.voxelSize()[0];
+      if (width > 0 && width < kLeastWidth - kRounding)
+        findings.warn("narrow-band", "holds distances up to " + numberText(width) +
+                                         (width == 1 ? " voxel" : " voxels") +
+                                         " outside: tools of OpenVDB, and programs that move or "
+                                         "resample level sets, want 3; use a wider --band");
       if (thin)
         findings.warn("no-inside",
                       "is a level set with hardly any inside: what it shows is thinner than a "
@@ -321,6 +330,7 @@ const std::vector<LintRule>& lintRules() {
       {"frustum", "a transform that is not linear"},
       {"name", "a name that is missing, used twice, or not for Blender or Houdini"},
       {"creator", "a creator that starts with Houdini: Blender turns the object then"},
+      {"narrow-band", "warning: a level set with distances to less than 3 voxels outside"},
       {"no-inside", "warning: a level set with hardly any inside"},
       {"eevee", "warning: more than 2048 voxels along an axis"},
       {"count", "not the number of voxels that vox convert recorded"},

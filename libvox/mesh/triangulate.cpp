@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 #include <utility>
@@ -218,6 +219,37 @@ bool splitQuad(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>
   return even || odd;
 }
 
+/// The corners that are not at the place of the one before.
+std::vector<Index> cornersApart(std::span<const Vec3d> corners) {
+  std::vector<Index> apart;
+  for (Index i = 0; i < corners.size(); ++i)
+    if (corners[i] != (i > 0 ? corners[i - 1] : corners.back())) apart.push_back(i);
+  return apart;
+}
+
+/// Whether two of some corners are at one place: a spike, or a bridge to a hole.
+bool meetsItself(std::span<const Vec3d> corners, std::span<const Index> some) {
+  std::vector<std::array<double, 3>> places;
+  for (const Index i : some) places.push_back({corners[i].x(), corners[i].y(), corners[i].z()});
+  std::sort(places.begin(), places.end());
+  return std::adjacent_find(places.begin(), places.end()) != places.end();
+}
+
+/// Cuts a polygon as if it had only the corners `kept`; the others get triangles without area.
+void cutWithout(std::span<const Vec3d> corners, std::span<const Index> kept,
+                std::vector<std::array<Index, 3>>& triangles, TriangulationReport& report) {
+  std::vector<Vec3d> places;
+  for (const Index i : kept) places.push_back(corners[i]);
+  const std::size_t first = triangles.size();
+  triangulate(places, triangles, report);
+  for (std::size_t t = first; t < triangles.size(); ++t)
+    for (Index& corner : triangles[t]) corner = kept[corner];
+  const auto n = static_cast<Index>(corners.size());
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    for (Index i = (kept[k] + 1) % n; i != kept[(k + 1) % kept.size()]; i = (i + 1) % n)
+      triangles.push_back({kept[k], i, (i + 1) % n});
+}
+
 }  // namespace
 
 bool clipEars(std::span<const Vec3d> corners, std::span<const FlatPoint> flat,
@@ -228,12 +260,22 @@ bool clipEars(std::span<const Vec3d> corners, std::span<const FlatPoint> flat,
 void triangulate(std::span<const Vec3d> corners, std::vector<std::array<Index, 3>>& triangles,
                  TriangulationReport& report) {
   if (corners.size() < 3) return;
-  if (corners.size() == 3)
+  if (corners.size() == 3) {
     triangles.push_back({0, 1, 2});
-  else if (corners.size() == 4)
-    report.fanned += !splitQuad(corners, triangles);
-  else
-    report.fanned += !clipEars(corners, flattened(corners, twiceAreaVector(corners)), triangles);
+    return;
+  }
+  const std::size_t first = triangles.size();
+  const bool cut = corners.size() == 4
+                       ? splitQuad(corners, triangles)
+                       : clipEars(corners, flattened(corners, twiceAreaVector(corners)), triangles);
+  if (cut) return;
+  const std::vector<Index> apart = cornersApart(corners);
+  if (apart.size() < 3 || apart.size() == corners.size() || meetsItself(corners, apart)) {
+    ++report.fanned;
+    return;
+  }
+  triangles.resize(first);
+  cutWithout(corners, apart, triangles, report);
 }
 
 void FaceTriangulator::add(const PolygonMesh& mesh, Index f,

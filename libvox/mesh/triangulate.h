@@ -22,8 +22,9 @@ struct TriangulationReport {
 /// ear, it becomes a fan, and the polygon is counted in the report.
 ///
 /// Seen along the normal of the polygon (its area vector), the triangles cover a simple polygon
-/// without overlap; each has an area, unless repeated corners make that impossible. Corners may lie
-/// on sides, and sides may touch (a hole that a double bridge connects with the outline).
+/// without overlap; each has an area, but for one triangle for each corner at the place of the one
+/// before. Corners may lie on sides, and sides may touch (a hole that a double bridge connects with
+/// the outline).
 /// Quads are cut along a diagonal that lies inside; if both or none do, along the shorter one; if
 /// these are equal, along 0-2. Other polygons: ear clipping, the best-shaped ear first (largest
 /// smallest angle, then shortest diagonal).

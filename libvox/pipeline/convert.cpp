@@ -26,11 +26,14 @@
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
 
+#include <openvdb/tools/Count.h>
 #include <openvdb/tools/Prune.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
+#include <sstream>
 
 namespace vox {
 namespace {
@@ -201,11 +204,34 @@ std::vector<std::size_t> orderOf(const std::vector<GridKind>& kinds) {
   return order;
 }
 
+/// Largest absolute value of a grid of numbers, its background included. Vectors and masks: 1,
+/// because normals are units, and colours are at most 1.
+double largestValue(const openvdb::GridBase& grid) {
+  const auto* numbers = dynamic_cast<const openvdb::FloatGrid*>(&grid);
+  if (numbers == nullptr) return 1;
+  const auto range = openvdb::tools::minMax(numbers->tree());
+  return std::max({std::abs(range.min()), std::abs(range.max()), std::abs(numbers->background())});
+}
+
+/// Whether floats of 16 bits hold the values of a grid as well as they hold numbers near 1.
+bool fitsHalf(const openvdb::GridBase& grid, std::vector<std::string>& warnings) {
+  constexpr double kLargest = 65504, kLeastNormal = 1.0 / 16384;
+  const double largest = largestValue(grid);
+  if (largest == 0 || (largest >= kLeastNormal && largest <= kLargest)) return true;
+  std::ostringstream text;
+  text << "the grid " << grid.getName() << " is written with 32 bits: its values, up to " << largest
+       << ", are too " << (largest > 1 ? "large" : "small")
+       << " for 16; with --scale the model has other units";
+  warnings.push_back(text.str());
+  return false;
+}
+
 /// A grid with its name and metadata.
 openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
-                                const VolumeSettings& volume, const openvdb::MetaMap& metadata) {
+                                const VolumeSettings& volume, const openvdb::MetaMap& metadata,
+                                std::vector<std::string>& warnings) {
   grid->setName(gridNameFor(kind, volume.target));
-  grid->setSaveFloatAsHalf(volume.half);
+  grid->setSaveFloatAsHalf(volume.half && fitsHalf(*grid, warnings));
   for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
     grid->insertMeta(entry->first, *entry->second);
   return grid;
@@ -263,7 +289,7 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
                      prepared.region.grown(1));
     if (grid == near && request.crops()) grid = near->deepCopyGrid();  // others still need `near`
     cropGrid(*grid, prepared.region);
-    result.grids[i] = finished(grid, kind, volume, metadata);
+    result.grids[i] = finished(grid, kind, volume, metadata, report.warnings);
     // OpenVDB rounds when it copies a transform that moves.
     if (const auto& origin = request.resolution.origin; origin && !origin->isZero(0))
       result.grids[i]->setTransform(transformOfFile(request, prepared.transform));

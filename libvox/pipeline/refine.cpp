@@ -123,6 +123,13 @@ PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& prep
   return mesh;
 }
 
+/// Warns that an object lacks what should be sharp. Strict: refuses it.
+void noteMissing(const std::string& what, const SceneObject& object, bool strict,
+                 std::vector<std::string>& warnings) {
+  if (strict) throw MeshError(what + ", which --strict forbids");
+  warnings.push_back(object.name + ": " + what);
+}
+
 /// The edges and vertices that stay sharp. A warning tells of edges that are none.
 SharpFeatures sharpFeaturesOf(const SceneObject& object, const ObjectPreparation& preparation,
                               const PolygonMesh& mesh, const Adjacency& adjacency,
@@ -132,18 +139,19 @@ SharpFeatures sharpFeaturesOf(const SceneObject& object, const ObjectPreparation
   if (preparation.crease.degrees)
     markByAngle(mesh, adjacency, input, *preparation.crease.degrees, sharp);
   if (preparation.crease.groups && object.mesh.faceGroups.empty())
-    warnings.push_back(object.name + ": has no smoothing groups, so no edge is sharp by group");
+    noteMissing("has no smoothing groups, so no edge is sharp by group", object, preparation.strict,
+                warnings);
   else if (preparation.crease.groups)
     markByGroups(adjacency, input, object.mesh.faceGroups, sharp);
   const std::vector<std::size_t> missing =
       markByPoints(mesh, adjacency, input, preparation.creaseEdges, sharp);
   if (!missing.empty()) {
     const PointPair& first = preparation.creaseEdges[missing[0]];
-    warnings.push_back(object.name + ": the mesh has no edge at " + std::to_string(missing.size()) +
-                       " of the " + std::to_string(preparation.creaseEdges.size()) +
-                       " pairs of vertices of --crease-edges; the first is " +
-                       std::to_string(first[0]) + " " + std::to_string(first[1]) +
-                       ", counted from 0");
+    noteMissing("the mesh has no edge at " + std::to_string(missing.size()) + " of the " +
+                    std::to_string(preparation.creaseEdges.size()) +
+                    " pairs of vertices of --crease-edges; the first is " +
+                    std::to_string(first[0]) + " " + std::to_string(first[1]) + ", counted from 0",
+                object, preparation.strict, warnings);
   }
   markVertices(input, preparation.cornerVertices, sharp);
   if (preparation.boundary == BoundaryRule::kCorners) markBoundaryCorners(mesh, adjacency, sharp);

@@ -57,9 +57,9 @@ std::string gapsOf(const SceneObject& object, const ObjectPreparation& preparati
 /// interpolation.
 /// Credits the current stage of `progress`.
 /// @throws UsageError  the weld tolerance is negative or not finite
-/// @throws MeshError   something had to be repaired or turned round though `strict` forbids it,
-///   nothing is left after repair, or a vertex cannot be interpolated; the message names file,
-///   object and element
+/// @throws MeshError   something had to be repaired or turned round though `strict` forbids it, or
+///   smoothing groups or edges that should be sharp are missing though it does, nothing is left
+///   after repair, or a vertex cannot be interpolated; the message names file, object and element
 /// @throws LimitError  not enough memory
 /// @throws Cancelled
 PreparedObject prepare(const Scene& scene, const SceneObject& object,
