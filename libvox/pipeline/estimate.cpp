@@ -41,11 +41,11 @@ struct Measure {
   double volume = 0;       ///< inside
   double sheetArea = 0;    ///< of surfaces without an inside
   double activeVoxels = 0;
-  double leaves = 0;  ///< nodes of 8^3 voxels
-  double lowers = 0;  ///< of 128^3
-  double uppers = 0;  ///< of 4096^3
-  bool textured = false;
-  bool smooth = false;  ///< normals differ from voxel to voxel
+  double leaves = 0;      ///< nodes of 8^3 voxels
+  double lowers = 0;      ///< of 128^3
+  double uppers = 0;      ///< of 4096^3
+  bool textured = false;  ///< colours differ from voxel to voxel
+  bool smooth = false;    ///< normals differ from voxel to voxel
 };
 
 /// The cubes of 2^log2 voxels a side that polygons meet. Gives up, without a count, where the
@@ -178,7 +178,8 @@ Measure measureOf(std::span<const PreparedSurface> surfaces, const Region& regio
     all.volume += one.volume;
     all.sheetArea += one.sheetArea;
     all.activeVoxels += one.activeVoxels;
-    all.textured |= surface.texture.has_value();
+    all.textured |=
+        surface.texture || !surface.look.looks.empty() || !surface.base.mesh.pointColors.empty();
     all.smooth |= levelOf(surface.way) != 0;
   }
   const auto met = [&](double side) { return 1.05 * all.taxicabArea / (side * side) + 1; };
