@@ -136,6 +136,7 @@ struct ConversionArguments {
   std::optional<bool> strict;
   SubmeshArguments submeshes;
   std::string texture;
+  std::string partBy;
 };
 /// Their values; reads the file of vertices.
 /// @throws UsageError, InputError

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace vox {
 
@@ -37,6 +38,9 @@ struct GridSources {
   /// The voxels of a soft density near the surface (soft_density.h); null if there is none.
   std::shared_ptr<openvdb::MaskGrid> soft = nullptr;
   Region region = {};  ///< other voxels need no values, but grids may have some
+  /// The grid density, if it is made and holds more than the mask; else null.
+  std::shared_ptr<openvdb::FloatGrid> density = nullptr;
+  std::span<const std::string> partNames = {};  ///< of the parts 1, 2, ...
 };
 
 /// The output grid of a kind.
