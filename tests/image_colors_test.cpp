@@ -334,7 +334,7 @@ TEST_CASE("materials colour the faces; what is missing gives one warning", "[io]
     CHECK(*voxel == openvdb::Vec3f(0, 0, 1));
 }
 
-TEST_CASE("--alpha cut leaves out the voxels whose closest point is transparent", "[image]") {
+TEST_CASE("with alpha cut, voxels whose closest point is transparent are left out", "[image]") {
   // The image is opaque in its lower half only.
   Image image(8, 8);
   for (int y = 0; y < 8; ++y)

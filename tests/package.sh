@@ -24,7 +24,7 @@ completed() {
     echo "${COMPREPLY[*]}")
 }
 [ "$(completed vox conv)" = convert ]
-[ "$(completed vox convert a.obj --bound)" = --boundary ]
+[ "$(completed vox convert a.obj --bounda)" = --boundary ]
 [ "$(completed vox convert a.obj --boundary e)" = extend ]
 [ "$(completed vox convert a.obj --until l)" = levels= ]
 [ -z "$(completed vox convert a.o)" ]
