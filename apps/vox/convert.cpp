@@ -223,14 +223,6 @@ Action addConvert(CLI::App& app) {
                "or the images and colours of the meshes)")
       .type("KIND[:KEY=VALUE,...]")
       .group("Output");
-  command
-      .add(
-          "--part-by", options->conversion.partBy,
-          "What the grid part tells apart: objects of the scene and of mesh files (object), groups "
-          "(group) or materials (material) of mesh files (default: the scene's, or the first of "
-          "these that tells two parts apart)")
-      .type("object|group|material")
-      .group("Output");
   addVolumeOptions(command, options->volume);
   addFileOptions(command, options->volume);
   addSubmeshOptions(command, options->conversion.submeshes);

@@ -493,7 +493,6 @@ ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOp
   parsed.strict = arguments.strict;
   parsed.surface = parseSubmeshes(arguments.submeshes);
   if (!arguments.texture.empty()) parsed.texture = parseTexture(arguments.texture);
-  parsed.partBy = parseNamed("--part-by", kPartByNames, arguments.partBy);
   parsed.run = run;
   return parsed;
 }

@@ -136,7 +136,6 @@ struct ConversionArguments {
   std::optional<bool> strict;
   SubmeshArguments submeshes;
   std::string texture;
-  std::string partBy;
 };
 /// Their values; reads the file of vertices.
 /// @throws UsageError, InputError

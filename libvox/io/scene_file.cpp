@@ -73,12 +73,12 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
 }
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
-  requireKnownKeys(
-      text, table, "[convert]",
-      {"dim",         "part_by", "voxel_size", "bounds", "grids",    "fill",      "edge",
-       "alpha",       "gain",    "open_mesh",  "close",  "band",     "tolerance", "half",
-       "compression", "target",  "up",         "until",  "voxelize", "weld",      "drop_components",
-       "strict"});
+  requireKnownKeys(text, table, "[convert]",
+                   {"dim",   "voxel_size", "bounds",   "grids",       "fill",
+                    "edge",  "alpha",      "gain",     "open_mesh",   "close",
+                    "band",  "tolerance",  "half",     "compression", "target",
+                    "up",    "until",      "voxelize", "weld",        "drop_components",
+                    "strict"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -92,7 +92,6 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
   scene.volume = readVolumeOptions(text, table);
   if (const auto* until = table.get("until")) scene.until = requireStopRule(text, *until);
   readNamed(text, table, "voxelize", kVoxelizeNames, scene.voxelize);
-  readNamed(text, table, "part_by", kPartByNames, scene.partBy);
   if (const auto* weld = table.get("weld")) {
     scene.weldTolerance = requireNumber(text, *weld, "weld");
     if (*scene.weldTolerance < 0) text.fail(*weld, "weld must be 0 or more");

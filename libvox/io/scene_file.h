@@ -4,7 +4,6 @@
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/options/component_limit.h"
 #include "libvox/options/grid_kind.h"
-#include "libvox/options/part_by.h"
 #include "libvox/options/smoothing_options.h"
 #include "libvox/options/stop_rule.h"
 #include "libvox/options/texture_spec.h"
@@ -47,7 +46,6 @@ struct Scene {
   VolumeOptions volume;                      ///< [convert] fill and the other options of volumes
   std::optional<StopRule> until;             ///< [convert] until: default for objects
   std::optional<Voxelize> voxelize;          ///< [convert] voxelize: default for objects
-  std::optional<PartBy> partBy = {};         ///< [convert] part_by
   std::vector<SceneObject> objects;          ///< at least one
   std::vector<std::filesystem::path> files;  ///< the input file, then its meshes
   std::string inputHash;                     ///< of the contents of `files`; empty without files

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "libvox/options/grid_kind.h"
-#include "libvox/options/part_by.h"
 #include "libvox/options/preparation_options.h"
 #include "libvox/options/run_options.h"
 #include "libvox/options/stop_rule.h"
@@ -41,9 +40,6 @@ struct ConvertOptions : PreparationOptions {
   /// Replaces the textures and colours of all objects, and adds the color grid to those of the
   /// scene.
   std::optional<TextureSpec> texture;
-  /// What the grid part tells apart; default: the first of object, group and material that tells
-  /// two parts apart.
-  std::optional<PartBy> partBy;
   SurfaceOptions surface;
   RunOptions run;
 };

@@ -11,14 +11,12 @@ enum class GridKind {
   kMask,     ///< the active voxels
   kNormal,   ///< Vec3s, unit normals of the surface at active voxels
   kColor,    ///< Vec3s, linear colour of active voxels
-  kPart,     ///< Int32, number of the part of active voxels, and of those inside
   kSurface,  ///< Float level set: narrow band of distances to the surface
 };
-inline constexpr NameTable<GridKind, 6> kGridNames = {{{GridKind::kDensity, "density"},
+inline constexpr NameTable<GridKind, 5> kGridNames = {{{GridKind::kDensity, "density"},
                                                        {GridKind::kMask, "mask"},
                                                        {GridKind::kSurface, "surface"},
                                                        {GridKind::kNormal, "normal"},
-                                                       {GridKind::kColor, "color"},
-                                                       {GridKind::kPart, "part"}}};
+                                                       {GridKind::kColor, "color"}}};
 
 }  // namespace vox

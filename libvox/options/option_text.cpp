@@ -37,7 +37,6 @@ void forEachField(Options& options, Visit&& visit) {
   visit("weld", options.weldTolerance);
   visit("drop-components", options.dropComponents);
   visit("texture", options.texture);
-  visit("part-by", options.partBy, kPartByNames);
   visit("fill", options.volume.fill, kFillNames);
   visit("edge", options.volume.edge, kEdgeNames);
   visit("alpha", options.volume.alpha, kAlphaNames);

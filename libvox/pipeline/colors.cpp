@@ -31,11 +31,15 @@ openvdb::Vec3f colorOf(const Vec4f& color) {
 class ObjectColors {
  public:
   ObjectColors(std::span<const PreparedSurface> surfaces, const openvdb::math::Transform& transform)
-      : feet_(footSurfaces(surfaces)), owners_(feet_), transform_(transform) {
-    for (const PreparedSurface& surface : surfaces) objects_.emplace_back(surface);
+      : feet_(footSurfaces(surfaces)), transform_(transform) {
+    std::uint32_t owners = 0;
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+      objects_.push_back({owners, SurfaceColors(surfaces[s])});
+      const std::size_t triangles = feet_.flat[s].triangles.faceCount();
+      owners += static_cast<std::uint32_t>(triangles > 0 ? triangles
+                                                         : surfaces[s].base.mesh.cornerCount());
+    }
   }
-  ObjectColors(const ObjectColors&) = delete;
-  ObjectColors& operator=(const ObjectColors&) = delete;
 
   /// @param object  with a texture
   openvdb::Vec3f ofTexture(std::size_t object, const openvdb::Coord& voxel) const {
@@ -43,7 +47,7 @@ class ObjectColors {
     const Vec3d world(transform_.indexToWorld(voxel).asPointer());
     return asFloats(placed.texture.colorAt(placed.fromWorld * world));
   }
-  bool mayBeTransparent() const { return objects_[0].mayBeTransparent(); }
+  bool mayBeTransparent() const { return objects_[0].colors.mayBeTransparent(); }
 
   /// Switches off the voxels of the only object whose foot is transparent.
   void cut(openvdb::MaskTree& voxels, const MemoryBudget& budget, Progress& progress) const {
@@ -57,7 +61,7 @@ class ObjectColors {
               });
   }
 
-  bool hasColorsByPlace(std::size_t object) const { return objects_[object].hasColors(); }
+  bool hasColorsByPlace(std::size_t object) const { return objects_[object].colors.hasColors(); }
 
   /// Paints voxels with the colours of the objects that they are closest to.
   void paintByFeet(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels, float reach,
@@ -73,25 +77,35 @@ class ObjectColors {
   }
 
  private:
+  struct Object {
+    std::uint32_t firstOwner;  // of its cells
+    SurfaceColors colors;
+  };
+
   openvdb::Vec3f atFoot(const FootBins& bins, const FootPlace& at,
                         const openvdb::Coord& voxel) const {
-    const std::size_t number = owners_.surfaceOf(at);
+    const auto next =
+        std::upper_bound(objects_.begin(), objects_.end(), at.cell->owner,
+                         [](std::uint32_t owner, const Object& o) { return owner < o.firstOwner; });
+    const auto number = static_cast<std::size_t>(next - objects_.begin()) - 1;
     if (feet_.surfaces[number].texture) return ofTexture(number, voxel);
-    if (!objects_[number].hasColors()) return openvdb::Vec3f(kPlainColor);
+    const Object& object = objects_[number];
+    if (!object.colors.hasColors()) return openvdb::Vec3f(kPlainColor);
     return colorOf(lookAtFoot(number, bins, at));
   }
 
   Vec4f lookAtFoot(std::size_t number, const FootBins& bins, const FootPlace& at) const {
+    const Object& object = objects_[number];
+    const std::uint32_t owner = at.cell->owner - object.firstOwner;
     if (at.cell->kind == CellKind::kTriangle)
-      return objects_[number].at(owners_.cornersOfTriangle(number, at), at.a, at.b);
+      return object.colors.at(&feet_.flat[number].corners[std::size_t{3} * owner], at.a, at.b);
     const SurfacePlace place = placeAt(bins, at);
-    return objects_[number].at(owners_.cornerOf(number, at), place.u, place.v);
+    return object.colors.at(owner, place.u, place.v);
   }
 
   FootSurfaces feet_;
-  FootOwners owners_;
   const openvdb::math::Transform& transform_;
-  std::vector<SurfaceColors> objects_;
+  std::vector<Object> objects_;
 };
 
 /// The voxels of a mask, and one more on all sides.

@@ -87,8 +87,7 @@ void cropGrid(openvdb::GridBase& grid, const Region& region) {
     else
       openvdb::tools::pruneInactive(typed.tree());
   };
-  using Kinds = openvdb::TypeList<openvdb::MaskGrid, openvdb::FloatGrid, openvdb::Vec3SGrid,
-                                  openvdb::Int32Grid>;
+  using Kinds = openvdb::TypeList<openvdb::MaskGrid, openvdb::FloatGrid, openvdb::Vec3SGrid>;
   grid.apply<Kinds>(cropTree);
 }
 
@@ -276,25 +275,15 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, request, report);
   openvdb::MaskGrid::Ptr soft;
-  openvdb::FloatGrid::Ptr density;
-  const bool wantsParts =
-      std::find(request.grids.begin(), request.grids.end(), GridKind::kPart) != request.grids.end();
   result.grids.resize(request.grids.size());
   for (const std::size_t i : orderOf(request.grids)) {
     const GridKind kind = request.grids[i];
     const double work = workOf(kind);
     progress.begin("grids", kind == GridKind::kSurface && !marks ? work / 2 : work);
-    const bool fillsInside = kind == GridKind::kDensity || kind == GridKind::kPart;
-    openvdb::GridBase::Ptr grid =
-        makeGrid(kind,
-                 {fillsInside ? mask : near, prepared.surfaces, markVoxels, soft, prepared.region,
-                  density, prepared.partNames},
-                 volume, prepared.budget, progress, report.warnings);
-    // A solid density that is cropped lacks voxels from which labels come.
-    const bool isWhole = !(request.crops() && volume.fill == Fill::kSolid);
-    if (kind == GridKind::kDensity && wantsParts && isWhole &&
-        (volume.edge == Edge::kSoft || volume.fill == Fill::kSolid))
-      density = openvdb::gridPtrCast<openvdb::FloatGrid>(grid);
+    openvdb::GridBase::Ptr grid = makeGrid(kind,
+                                           {kind == GridKind::kDensity ? mask : near,
+                                            prepared.surfaces, markVoxels, soft, prepared.region},
+                                           volume, prepared.budget, progress, report.warnings);
     if (kind == GridKind::kDensity && volume.edge == Edge::kSoft)
       soft = cropped(*softVoxels(*openvdb::gridPtrCast<openvdb::FloatGrid>(grid), *mask),
                      prepared.region.grown(1));

@@ -301,15 +301,6 @@ GridEstimate estimateVectors(GridKind kind, const Measure& m, bool vary,
   return grid;
 }
 
-/// The voxels of the density, each with a number of as many bytes.
-GridEstimate estimateParts(const Measure& m, const VolumeSettings& volume, bool withDensity) {
-  GridEstimate grid = withDensity && volume.edge == Edge::kSoft ? estimateSoftDensity(m, volume)
-                                                                : estimateDensity(m, volume);
-  grid.kind = GridKind::kPart;
-  grid.peakBytes = std::max(grid.peakBytes, grid.bytes + kCellBytes * m.area);
-  return grid;
-}
-
 /// Number of largest nodes at any resolution. A compact model around the origin always has some; a
 /// model that is scattered over far more space than its surface fills keeps all of them.
 double fixedUppers(const Measure& m) {
@@ -336,8 +327,6 @@ GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& v
       return estimateVectors(kind, m, m.smooth, voxels);
     case GridKind::kColor:
       return estimateVectors(kind, m, m.textured, voxels);
-    case GridKind::kPart:
-      return estimateParts(m, volume, withDensity);
   }
   return {kind};
 }

@@ -67,30 +67,6 @@ FootSurfaces footSurfaces(std::span<const PreparedSurface> surfaces) {
   return all;
 }
 
-FootOwners::FootOwners(const FootSurfaces& surfaces) : surfaces_(surfaces) {
-  std::uint32_t owners = 0;
-  for (std::size_t s = 0; s < surfaces.surfaces.size(); ++s) {
-    first_.push_back(owners);
-    const std::size_t triangles = surfaces.flat[s].triangles.faceCount();
-    owners += static_cast<std::uint32_t>(
-        triangles > 0 ? triangles : surfaces.surfaces[s].base.mesh.cornerCount());
-  }
-}
-
-std::size_t FootOwners::surfaceOf(const FootPlace& at) const {
-  const auto next = std::upper_bound(first_.begin(), first_.end(), at.cell->owner);
-  return static_cast<std::size_t>(next - first_.begin()) - 1;
-}
-
-const Index* FootOwners::cornersOfTriangle(std::size_t surface, const FootPlace& at) const {
-  return &surfaces_.flat[surface].corners[std::size_t{3} * (at.cell->owner - first_[surface])];
-}
-
-Index FootOwners::cornerOf(std::size_t surface, const FootPlace& at) const {
-  return at.cell->kind == CellKind::kTriangle ? cornersOfTriangle(surface, at)[0]
-                                              : at.cell->owner - first_[surface];
-}
-
 void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels, float firstReach,
                const MemoryBudget& budget, Progress& progress, double part,
                const VisitFeet& visit) {

@@ -3,7 +3,6 @@
 #include "libvox/foot/nearest_feet.h"
 #include "libvox/pipeline/prepared_surface.h"
 
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -24,23 +23,6 @@ struct FootSurfaces {
     std::vector<Index> corners;
   };
   std::vector<Flat> flat;
-};
-
-/// Whose cells are whose: owners count on from surface to surface.
-class FootOwners {
- public:
-  /// @param surfaces  must outlive this object
-  explicit FootOwners(const FootSurfaces& surfaces);
-
-  std::size_t surfaceOf(const FootPlace& at) const;
-  /// The three corners of the triangle of a foot. Precondition: the cell is a kTriangle.
-  const Index* cornersOfTriangle(std::size_t surface, const FootPlace& at) const;
-  /// A corner of the face of a foot: that which owns the cell, or the first of the triangle.
-  Index cornerOf(std::size_t surface, const FootPlace& at) const;
-
- private:
-  const FootSurfaces& surfaces_;
-  std::vector<std::uint32_t> first_;  // of the cells of each surface
 };
 
 /// How far feet are first looked for, in voxels. A voxel that a surface crosses is nearer than

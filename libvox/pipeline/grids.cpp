@@ -11,7 +11,6 @@
 #include "libvox/pipeline/feet.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/normals.h"
-#include "libvox/pipeline/parts.h"
 #include "libvox/pipeline/soft_density.h"
 #include "libvox/volume/density.h"
 #include "libvox/volume/fill.h"
@@ -66,22 +65,6 @@ openvdb::GridBase::Ptr makeDensity(const openvdb::MaskGrid& mask,
   return density;
 }
 
-/// Covers the voxels of the density: of its grid, or of the solid that it would hold.
-openvdb::GridBase::Ptr makePart(const GridSources& sources, const VolumeSettings& volume,
-                                MemoryBudget& budget, Progress& progress,
-                                std::vector<std::string>& warnings) {
-  const openvdb::MaskGrid& mask = *sources.mask;
-  openvdb::MaskTree::ConstPtr voxels;
-  if (sources.density) {
-    voxels = std::make_shared<openvdb::MaskTree>(sources.density->tree(), false, true,
-                                                 openvdb::TopologyCopy());
-  } else if (volume.fill == Fill::kSolid) {
-    budget.require(bytesOfFilling(mask.tree()), "the inside", kScatteredAdvice);
-    voxels = solidOf(mask.tree(), sources.surfaces, volume, budget, progress, warnings).voxels;
-  }
-  return makePartGrid(mask, voxels.get(), sources.surfaces, sources.partNames, budget, progress);
-}
-
 }  // namespace
 
 std::uint64_t bytesOfFloats(const openvdb::MaskTree& mask) {
@@ -100,7 +83,7 @@ bool needsVoxels(std::span<const GridKind> kinds) {
 bool needsInside(std::span<const GridKind> kinds, const VolumeSettings& volume) {
   return std::any_of(kinds.begin(), kinds.end(), [&](GridKind kind) {
     return kind == GridKind::kSurface ||
-           ((kind == GridKind::kDensity || kind == GridKind::kPart) && volume.fill == Fill::kSolid);
+           (kind == GridKind::kDensity && volume.fill == Fill::kSolid);
   });
 }
 
@@ -108,7 +91,7 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
                                 const VolumeSettings& volume, MemoryBudget& budget,
                                 Progress& progress, std::vector<std::string>& warnings) {
   progress.check();
-  const auto& [mask, surfaces, markVoxels, soft, region, density, partNames] = sources;
+  const auto& [mask, surfaces, markVoxels, soft, region] = sources;
   switch (kind) {
     case GridKind::kMask:
       break;
@@ -122,8 +105,6 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
                             budget, progress);
     case GridKind::kColor:
       return makeColorGrid(*mask, soft.get(), surfaces, budget, progress);
-    case GridKind::kPart:
-      return makePart(sources, volume, budget, progress, warnings);
   }
   return mask;
 }

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 
 namespace vox {
 
@@ -38,9 +37,6 @@ struct GridSources {
   /// The voxels of a soft density near the surface (soft_density.h); null if there is none.
   std::shared_ptr<openvdb::MaskGrid> soft = nullptr;
   Region region = {};  ///< other voxels need no values, but grids may have some
-  /// The grid density, if it is made and holds more than the mask; else null.
-  std::shared_ptr<openvdb::FloatGrid> density = nullptr;
-  std::span<const std::string> partNames = {};  ///< of the parts 1, 2, ...
 };
 
 /// The output grid of a kind.

@@ -12,7 +12,6 @@
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/object_look.h"
-#include "libvox/pipeline/part_numbers.h"
 #include "libvox/pipeline/plan.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/work.h"
@@ -48,13 +47,14 @@ void warnOfBoundary(const std::string& name, const SubdivisionLevel& level, Conv
                               " separate faces, each smoothed by itself" + kWhy);
 }
 
-bool hasGrid(const Request& request, GridKind kind) {
-  return std::find(request.grids.begin(), request.grids.end(), kind) != request.grids.end();
+bool hasColorGrid(const Request& request) {
+  return std::find(request.grids.begin(), request.grids.end(), GridKind::kColor) !=
+         request.grids.end();
 }
 
 /// Warns of a grid of colours for objects that have none.
 void warnOfColors(const Scene& scene, const Request& request, ConvertReport& report) {
-  if (!hasGrid(request, GridKind::kColor)) return;
+  if (!hasColorGrid(request)) return;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const PolygonMesh& mesh = scene.objects[i].mesh;
     if (request.objects[i].texture || !mesh.pointColors.empty() || !mesh.faceColors.empty() ||
@@ -77,8 +77,7 @@ void notePreparation(const PreparedObject& prepared, const GridTransform& transf
 /// An object, ready to subdivide in index space.
 PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_t i,
                               const GridTransform& transform, ImageReader& images,
-                              PartNumbers& parts, MemoryBudget& budget, Progress& progress,
-                              ConvertReport& report) {
+                              MemoryBudget& budget, Progress& progress, ConvertReport& report) {
   const SceneObject& object = scene.objects[i];
   const ObjectRequest& request = all.objects[i];
   ObjectReport& part = report.objects.emplace_back();
@@ -94,11 +93,9 @@ PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_
   PreparedSurface surface{object.name, std::move(prepared.base), request.way, all.surface,
                           placedTexture(request.texture, object, transform.turn)};
   const bool cuts = all.volume.alpha == Alpha::kCut;
-  if ((hasGrid(all, GridKind::kColor) || cuts) && !surface.texture)
+  if ((hasColorGrid(all) || cuts) && !surface.texture)
     surface.look = lookOf(object, request.texture, prepared.faceOrigin,
                           std::move(prepared.texcoords), images, report.warnings);
-  if (hasGrid(all, GridKind::kPart))
-    surface.partOfFace = parts.ofFaces(object, prepared.faceOrigin);
   return surface;
 }
 
@@ -143,11 +140,9 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
   {
     const StageTimer timer(report.prepareSeconds);
     ImageReader images;
-    PartNumbers parts(scene, request.partBy);
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
       prepared.surfaces.push_back(
-          prepareObject(scene, request, i, transform, images, parts, budget, progress, report));
-    prepared.partNames = parts.names();
+          prepareObject(scene, request, i, transform, images, budget, progress, report));
     report.inputHash = images.hashWith(scene.inputHash);
     for (PreparedSurface& surface : prepared.surfaces)
       surface.region = prepared.region.grown(kMarginOfFeet);

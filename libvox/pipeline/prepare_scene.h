@@ -9,7 +9,6 @@
 #include "libvox/pipeline/prepared_surface.h"
 #include "libvox/pipeline/request.h"
 
-#include <string>
 #include <vector>
 
 namespace vox {
@@ -23,7 +22,6 @@ struct PreparedScene {
   Region region = {};                          ///< the voxels asked for
   std::vector<double> areas = {};              ///< areasOf
   std::vector<PreparedSurface> surfaces = {};  ///< one for each object, in index space
-  std::vector<std::string> partNames = {};     ///< of the parts 1, 2, ... (part_numbers.h)
   Estimate estimate = {};                      ///< without levels; may hold a refusal
 };
 

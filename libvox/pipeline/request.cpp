@@ -192,7 +192,6 @@ Request resolve(const Scene& scene, const ConvertOptions& options) {
   request.bounds = boundsOf(options.bounds ? options.bounds : scene.bounds);
   request.clip = options.clip;
   request.grids = gridsOf(scene, options);
-  request.partBy = options.partBy ? options.partBy : scene.partBy;
   requireCuttable(request);
   request.optionText = textOf(options, request.resolution, scene.bounds, request.volume);
   requirePreparable(scene, options);

@@ -81,7 +81,6 @@ struct Request {
   std::optional<Box> bounds;               ///< as in ConvertOptions
   std::optional<std::array<int, 6>> clip;  ///< as in ConvertOptions
   std::vector<GridKind> grids;             ///< in the order asked for
-  std::optional<PartBy> partBy;            ///< empty: as PartNumbers chooses
   VolumeSettings volume;
   Separation separation;
   SurfaceOptions surface;

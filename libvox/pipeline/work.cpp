@@ -27,8 +27,6 @@ double workOfGrid(GridKind kind, Edge edge, double area) {
       return 100 * area;
     case GridKind::kColor:
       return 250 * area;
-    case GridKind::kPart:
-      return 150 * area;
   }
   return 0;
 }
@@ -46,8 +44,6 @@ double workOfWriting(GridKind kind, double area) {
       return 150 * area;
     case GridKind::kColor:
       return 100 * area;
-    case GridKind::kPart:
-      return 50 * area;
   }
   return 0;
 }
