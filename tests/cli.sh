@@ -49,6 +49,7 @@ printf '%sf 1 2 3\nf 1 2 3\n' "$triangle" >winding.obj
 printf '%sf 1 2 3\n' "$triangle" >mesh.xyz
 printf '%sf 1 2 3\n' "$triangle" >good.obj
 printf '[convert]\nspeed = 3\n' >key.toml
+printf '[convert]\npart_by = "face"\n[[object]]\nmesh = "good.obj"\n' >key2.toml
 printf '[convert\n' >syntax.toml
 printf '[[object]]\nmesh = "missing.obj"\n' >missing.toml
 cat >header.txt <<'PLY'
@@ -206,6 +207,48 @@ assert cube["valences"] == {"3": 8}
 assert cube["closed"] and cube["orientable"] and cube["genus"] == 0
 assert cube["repair"] == {} and cube["prepared"]["faces"] == 6
 PY
+
+# Parts: two cubes that overlap, in one file.
+{
+  printf 'o the "left" one\n'
+  sed -n '/^[vf]/p' "$scenes/cube.obj"
+  printf 'o right-hand\n'
+  sed -n '/^[vf]/p' "$scenes/cube.obj" | awk '/^v/ {print "v", $2 + 1.2, $3 + 0.7, $4 + 0.4} /^f/ {for (i = 2; i <= NF; ++i) $i += 8; print}'
+} >parts.obj
+expect 0 'active voxels' convert parts.obj -o parts.vdb --dim 32 --grids density,part
+expect 0 '' check parts.vdb
+expect 0 '' info parts.vdb
+grep -q 'vox_parts  *{"1": "the \\"left\\" one", "2": "right-hand"}' stdout || fail "info: no names of parts"
+expect 0 '' info --json parts.vdb
+python3 - stdout <<'PY' || fail "grid part"
+import json, sys
+density, part = json.load(open(sys.argv[1]))[0]["grids"]
+assert part["type"] == "Tree_int32_5_4_3" and part["name"] == "part", part
+assert part["active_voxels"] == density["active_voxels"] > 1000
+assert json.loads(part["metadata"]["vox_parts"]) == {"1": 'the "left" one', "2": "right-hand"}
+PY
+expect 0 '' diff parts.vdb parts.vdb
+expect 0 '' render parts.vdb -o parts.png --size 60x50
+expect 0 'active voxels' convert parts.obj -o split.vdb --dim 32 --split part --verify
+expect 0 '' check split.vdb --mesh parts.obj
+grep -q 'parts: no tunnels' stdout || fail "check: no word of tunnels of parts"
+expect 0 '' render split.vdb -o split.png --size 60x50
+expect 0 '' info --json split.vdb
+python3 - stdout <<'PY' || fail "--split"
+import json, sys
+grids = json.load(open(sys.argv[1]))[0]["grids"]
+names = {grid["name"]: grid["metadata"]["vox_part_name"] for grid in grids}
+assert names == {"the__left__one": 'the "left" one', "right_hand": "right-hand"}, names
+assert sum(grid["active_voxels"] for grid in grids) == int(grids[0]["metadata"]["vox_active_voxels"])
+PY
+printf '[convert]\ngrids = ["density", "part"]\npart_by = "material"\nsplit = "part"\n[[object]]\nmesh = "parts.obj"\nname = "both"\n' >parts.toml
+expect 0 'active voxels' convert parts.toml -o both.vdb --dim 32
+expect 0 '' info both.vdb
+grep -q 'vox_part_name  *both$' stdout || fail "scene: part_by and split"
+expect 3 'part_by must be one of object, group, material' convert key2.toml -o out.vdb
+expect 2 '--split splits the grid density' convert parts.obj -o out.vdb --split part --grids mask
+expect 2 'contradict each other' convert parts.obj -o out.vdb --split object --part-by group
+expect 2 '--part-by must be one of object, group, material' convert parts.obj -o out.vdb --part-by face
 expect 3 'missing.vdb' info missing.vdb
 expect 0 '' info winding.obj
 grep -q 'repair  *dropped 1 duplicate face' stdout || fail "info: no word of the repair"

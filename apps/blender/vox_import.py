@@ -13,12 +13,15 @@ import threading
 import time
 
 import bpy
-from mathutils import Vector
+from mathutils import Color, Vector
 
 # Optical depth of one voxel: a shell that thin is to look solid.
 DEPTH_OF_VOXEL = 6.0
 LIGHT = Vector((-0.5, -0.6, 0.62))  # towards the sun, in world space
 TOWARDS_CAMERA = Vector((0.35, -0.85, 0.35))  # from the front, a bit above and to the right
+HUE_STEP = 0.618034  # from the hue of a part to that of the next
+PART_SATURATION = 0.75
+PART_VALUE = 0.8
 LENS = 100  # millimetres; a long lens fits the model closer than Blender's 50
 # Of out.png. Blender's own 1920 x 1080 pixels of 4096 samples would take hours.
 PICTURE_SIZE = 640, 480
@@ -32,6 +35,20 @@ def grids_of(volume):
     if not grids.load():
         raise RuntimeError(f"{volume.data.filepath}: {grids.error_message}")
     return {grid.name: grid for grid in grids}
+
+
+def densities_of(grids):
+    """Names of the grids that together are the density: `density`, or those of the parts of --split."""
+    if "density" in grids:
+        return ["density"]
+    return [grid.name for grid in grids.values() if grid.data_type == "FLOAT" and grid.name != "surface"]
+
+
+def color_of_part(number):
+    """A colour of its own for each part: the hues of near numbers differ much."""
+    color = Color()
+    color.hsv = number * HUE_STEP % 1, PART_SATURATION, PART_VALUE
+    return color
 
 
 def metadata_of(path):
@@ -60,13 +77,15 @@ def add_material(volume, metadata):
 
     Blender mixes the values of neighbours. Around a soft density, the grid color goes on for a voxel: what is
     mixed are colours. Around a hard one, color is 0, and so is density: then color / (density / gain) is the
-    colour of those voxels that are there. With the grid normal, the light is computed by the material;
+    colour of those voxels that are there. Without the grid color, each part has a colour of its own: each number
+    of the grid part, or each grid of a split density. With the grid normal, the light is computed by the material;
     without, the volume scatters the light of the scene.
     """
     grids = grids_of(volume)
-    if "density" not in grids:
+    densities = densities_of(grids)
+    if not densities:
         raise RuntimeError(f"{volume.data.filepath} has no grid density; add it to --grids of vox convert")
-    voxel = max(grids["density"].matrix_object.to_scale())
+    voxel = max(grids[densities[0]].matrix_object.to_scale())
     (gain,) = struct.unpack("<f", metadata.get("vox_gain", struct.pack("<f", 1)))
     is_soft = metadata.get("vox_edge") == b"soft"
     material = bpy.data.materials.new(volume.name)
@@ -90,10 +109,30 @@ def add_material(volume, metadata):
                 socket.default_value = value
         return made
 
-    value = node("ShaderNodeAttribute", (-1150, 0), attribute_name="density")
-    density = node("ShaderNodeMath", (-900, 0), operation="DIVIDE")
-    density.inputs[1].default_value = gain
-    links.new(value.outputs["Fac"], density.inputs[0])
+    def math(operation, place, a, b=0.0):
+        made = node("ShaderNodeMath", place, operation=operation)
+        for socket, value in zip(made.inputs, (a, b)):
+            if isinstance(value, bpy.types.NodeSocket):
+                links.new(value, socket)
+            else:
+                socket.default_value = value
+        return made
+
+    def value_of(name, place):
+        return node("ShaderNodeAttribute", place, attribute_name=name).outputs["Fac"]
+
+    # A density that is split: the sum of its parts, and the sum of their colours, each times its density.
+    values = [value_of(name, (-1400 - 400 * i, 0)) for i, name in enumerate(densities)]
+    total, painted = values[0], None
+    if len(values) > 1:
+        for i, value in enumerate(values[1:], 1):
+            total = math("ADD", (-1200 - 400 * i, 0), total, value).outputs[0]
+        for i, value in enumerate(values):
+            added = vector_math("MULTIPLY_ADD", (-1200 - 400 * i, -300), color_of_part(i + 1), value)
+            if painted is not None:
+                links.new(painted, added.inputs[2])
+            painted = added.outputs[0]
+    density = math("DIVIDE", (-900, 0), total, gain)
     depth = node("ShaderNodeMath", (-200, -200), operation="MULTIPLY")
     depth.inputs[1].default_value = DEPTH_OF_VOXEL / voxel
     links.new(density.outputs[0], depth.inputs[0])
@@ -107,6 +146,21 @@ def add_material(volume, metadata):
         color = attribute.outputs["Vector"]
         if not is_soft:
             color = vector_math("DIVIDE", (-650, 250), color, density.outputs[0]).outputs[0]
+        links.new(color, shader.inputs["Color"])
+    elif painted is not None:
+        color = vector_math("DIVIDE", (-650, 250), painted, total).outputs[0]
+        links.new(color, shader.inputs["Color"])
+    elif "part" in grids and is_soft:
+        # At soft edges, part is blended with 0, and nothing tells how much of the blend are voxels.
+        print("the grid part has no colours with soft edges; use --edge hard, or --split part", flush=True)
+    elif "part" in grids:
+        part = math("DIVIDE", (-900, 250), value_of("part", (-1150, 250)), density.outputs[0]).outputs[0]
+        number = math("ROUND", (-750, 250), part).outputs[0]
+        hue = math("FRACT", (-450, 250), math("MULTIPLY", (-600, 250), number, HUE_STEP).outputs[0])
+        combined = node("ShaderNodeCombineColor", (-300, 250), mode="HSV")
+        links.new(hue.outputs[0], combined.inputs[0])
+        combined.inputs[1].default_value, combined.inputs[2].default_value = PART_SATURATION, PART_VALUE
+        color = combined.outputs[0]
         links.new(color, shader.inputs["Color"])
     if "normal" in grids:
         attribute = node("ShaderNodeAttribute", (-900, 500), attribute_name="normal")

@@ -15,6 +15,7 @@
 #include "libvox/io/read_vdb.h"
 #include "libvox/options/option_text.h"
 #include "libvox/pipeline/request.h"
+#include "libvox/volume/joined_parts.h"
 
 #include <algorithm>
 #include <iostream>
@@ -84,6 +85,9 @@ openvdb::GridBase::Ptr chooseGrid(const VdbFile& file, const CheckArguments& opt
   }
   for (const char* name : {"mask", "density"})
     if (const auto grid = named(name)) return grid;
+  std::vector<openvdb::GridBase::Ptr> grids;
+  for (const NamedGrid& grid : file.grids) grids.push_back(grid.grid);
+  if (const auto parts = joinedParts(grids)) return parts;
   if (!options.mesh.empty())
     throw UsageError(options.file + ": has neither mask nor density; say --grid NAME");
   return nullptr;

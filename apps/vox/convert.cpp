@@ -36,6 +36,7 @@ struct ConvertArguments {
   std::string output;
   ConversionArguments conversion;
   std::string grids;
+  PartArguments parts;
   VolumeArguments volume;
   std::string report;
   bool verify = false;
@@ -116,6 +117,7 @@ ConvertOptions parse(const ConvertArguments& options) {
   if (!options.report.empty() && lowerExtension(options.report) != ".json")
     throw UsageError(options.report + ": the file of --report must end in .json");
   ConvertOptions parsed = parseConversion(options.conversion, options.common.run);
+  parseParts(options.parts, parsed);
   parsed.volume = parseVolume(options.volume);
   if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
   return parsed;
@@ -223,6 +225,7 @@ Action addConvert(CLI::App& app) {
                "or the images and colours of the meshes)")
       .type("KIND[:KEY=VALUE,...]")
       .group("Output");
+  addPartOptions(command, options->parts);
   addVolumeOptions(command, options->volume);
   addFileOptions(command, options->volume);
   addSubmeshOptions(command, options->conversion.submeshes);

@@ -99,6 +99,8 @@ Json optionsJson(const FinishedRun& run) {
       {"voxelize", options.voxelize ? Json(nameIn(kVoxelizeNames, *options.voxelize)) : Json()},
       {"separating", options.separation == Separation::k26 ? 26 : 6},
       {"grids", options.grids ? Json(namesOf(run.conversion)) : Json()},
+      {"part_by", vox::app::orNull(kPartByNames, options.partBy)},
+      {"split", vox::app::orNull(kSplitNames, options.split)},
       {"texture", options.texture ? Json(textureText(*options.texture)) : Json()},
       {"localize", nameIn(kLocalizeNames, options.surface.localize)},
       {"submesh_faces", options.surface.submeshFaces},

@@ -4,6 +4,7 @@
 #include "apps/vox/counted.h"
 #include "apps/vox/json.h"
 #include "apps/vox/options.h"
+#include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/inspect/summary.h"
@@ -233,6 +234,14 @@ Json describe(const Scene& scene, std::size_t number, const ObjectPreparation& p
   return {};
 }
 
+/// A value of metadata as one line; of many parts only the first.
+std::string metadataText(const std::string& value) {
+  constexpr std::size_t kMost = 300;
+  if (value.size() <= kMost) return onOneLine(value);
+  const std::size_t end = value.rfind(", ", kMost);
+  return end == value.npos ? onOneLine(value) : onOneLine(value.substr(0, end)) + ", ...";
+}
+
 void print(const GridSummary& grid) {
   std::cout << "  grid " << grid.name << ": " << grid.type << ", " << grid.gridClass << '\n';
   std::cout << "    active voxels     " << grid.activeVoxels << " in " << grid.leaves << " leaves, "
@@ -248,7 +257,7 @@ void print(const GridSummary& grid) {
               << grid.origin[2] << '\n';
   for (const auto& [key, value] : grid.metadata)
     if (key.starts_with("vox_"))
-      std::cout << "    " << std::left << std::setw(18) << key << value << '\n';
+      std::cout << "    " << std::left << std::setw(18) << key << metadataText(value) << '\n';
 }
 
 Json describe(const std::string& file, const InfoArguments& options) {

@@ -371,6 +371,28 @@ VolumeOptions parseVolume(const VolumeArguments& arguments) {
   return volume;
 }
 
+void addPartOptions(const Command& command, PartArguments& arguments) {
+  command
+      .add("--part-by", arguments.partBy,
+           "What the grid part numbers: objects of the scene and of mesh files (object), groups of "
+           "faces (group), or materials (material) (default: the scene's, or the first of these of "
+           "which the input has several)")
+      .type("object|group|material")
+      .group("Output");
+  command
+      .add("--split", arguments.split,
+           "Write one density grid for each part in place of the grid density: by --part-by "
+           "(part), or by objects (object). Grids have the names of the parts, with _ in place of "
+           "all but letters and digits (default: the scene's, or one grid)")
+      .type("part|object")
+      .group("Output");
+}
+
+void parseParts(const PartArguments& arguments, ConvertOptions& options) {
+  options.partBy = parseNamed("--part-by", kPartByNames, arguments.partBy);
+  options.split = parseNamed("--split", kSplitNames, arguments.split);
+}
+
 void addWeldOption(const Command& command, std::optional<double>& tolerance) {
   command
       .add(

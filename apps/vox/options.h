@@ -141,6 +141,16 @@ struct ConversionArguments {
 /// @throws UsageError, InputError
 ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOptions& run);
 
+/// --part-by and --split, as typed.
+struct PartArguments {
+  std::string partBy;
+  std::string split;
+};
+void addPartOptions(const Command& command, PartArguments& arguments);
+/// Sets what they give.
+/// @throws UsageError
+void parseParts(const PartArguments& arguments, ConvertOptions& options);
+
 /// "density,mask" as grids.
 /// @throws UsageError  an unknown name
 std::vector<GridKind> parseGrids(const std::string& names);

@@ -12,6 +12,7 @@
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/refined_polygons.h"
 #include "libvox/subdivide/stop.h"
+#include "libvox/volume/joined_parts.h"
 
 #include <algorithm>
 #include <optional>
@@ -109,6 +110,7 @@ void verify(const Conversion& conversion, const Scene& scene, const Request& req
     for (const GridKind kind : {GridKind::kMask, GridKind::kDensity})
       if (!voxels && grid->getName() == nameIn(kGridNames, kind)) voxels = topologyOf(*grid);
   }
+  if (const auto parts = joinedParts(conversion.grids); parts && !voxels) voxels = parts->treePtr();
   if (!voxels) throw UsageError("--verify needs a mask or density grid; name one in --grids");
   for (const ObjectCheck& object :
        checkObjects(*voxels, scene, request, conversion.report.voxelSize))

@@ -11,6 +11,7 @@
 #include "libvox/inspect/topology.h"
 #include "libvox/io/read_vdb.h"
 #include "libvox/options/option_text.h"
+#include "libvox/options/part_options.h"
 
 #include <openvdb/tools/Diagnostics.h>
 
@@ -319,7 +320,7 @@ void lint(const GridBase& grid, std::vector<LintFinding>& all, const std::string
 
 const std::vector<LintRule>& lintRules() {
   static const std::vector<LintRule> rules = {
-      {"no-density", "no grid named density, the one Blender renders by default"},
+      {"no-density", "no grid named density, the one Blender renders by default, nor parts of it"},
       {"background", "a fog volume whose background is not 0"},
       {"not-finite", "NaN or infinite values"},
       {"level-set", "a level set that is not valid, or steeper than distances are"},
@@ -353,7 +354,10 @@ std::vector<LintFinding> lintVdb(const std::filesystem::path& file) {
     if (!names.insert(named.grid->getName()).second)
       findings.add("name", "there are several grids named '" + named.grid->getName() +
                                "': viewers take one of them");
-  if (!names.contains("density"))
+  const bool isSplit = std::any_of(vdb.grids.begin(), vdb.grids.end(), [](const NamedGrid& named) {
+    return (*named.grid)[kPartNameMetadata] != nullptr;
+  });
+  if (!names.contains("density") && !isSplit)
     findings.add("no-density",
                  "there is no grid named density: Blender will show nothing until a material asks "
                  "for another; add density to --grids, or pass --ignore no-density");

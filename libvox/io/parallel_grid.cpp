@@ -98,6 +98,7 @@ openvdb::GridBase::ConstPtr inParallelIf(const openvdb::GridBase::Ptr& grid) {
 openvdb::GridBase::ConstPtr writtenInParallel(const openvdb::GridBase::Ptr& grid) {
   if (auto numbers = inParallelIf<openvdb::FloatTree>(grid)) return numbers;
   if (auto vectors = inParallelIf<openvdb::Vec3STree>(grid)) return vectors;
+  if (auto labels = inParallelIf<openvdb::Int32Tree>(grid)) return labels;
   return grid;
 }
 

@@ -74,11 +74,11 @@ VolumeOptions readVolumeOptions(const SceneText& text, const toml::table& table)
 
 void readConvert(const SceneText& text, const toml::table& table, Scene& scene) {
   requireKnownKeys(text, table, "[convert]",
-                   {"dim",   "voxel_size", "bounds",   "grids",       "fill",
-                    "edge",  "alpha",      "gain",     "open_mesh",   "close",
-                    "band",  "tolerance",  "half",     "compression", "target",
-                    "up",    "until",      "voxelize", "weld",        "drop_components",
-                    "strict"});
+                   {"dim",    "voxel_size", "bounds",   "grids",       "fill",
+                    "edge",   "alpha",      "gain",     "open_mesh",   "close",
+                    "band",   "tolerance",  "half",     "compression", "target",
+                    "up",     "until",      "voxelize", "weld",        "drop_components",
+                    "strict", "part_by",    "split"});
   if (const auto* dim = table.get("dim"))
     scene.dim =
         static_cast<int>(requireInteger(text, *dim, "dim", 1, std::numeric_limits<int>::max()));
@@ -89,6 +89,8 @@ void readConvert(const SceneText& text, const toml::table& table, Scene& scene) 
   }
   if (const auto* bounds = table.get("bounds")) scene.bounds = readBounds(text, *bounds);
   if (const auto* grids = table.get("grids")) scene.grids = readGrids(text, *grids);
+  readNamed(text, table, "part_by", kPartByNames, scene.partBy);
+  readNamed(text, table, "split", kSplitNames, scene.split);
   scene.volume = readVolumeOptions(text, table);
   if (const auto* until = table.get("until")) scene.until = requireStopRule(text, *until);
   readNamed(text, table, "voxelize", kVoxelizeNames, scene.voxelize);

@@ -4,6 +4,7 @@
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/options/component_limit.h"
 #include "libvox/options/grid_kind.h"
+#include "libvox/options/part_options.h"
 #include "libvox/options/smoothing_options.h"
 #include "libvox/options/stop_rule.h"
 #include "libvox/options/texture_spec.h"
@@ -40,6 +41,8 @@ struct Scene {
   std::optional<double> voxelSize;              ///< [convert] voxel_size: world units
   std::optional<std::array<double, 6>> bounds;  ///< [convert] bounds: as in ConvertOptions
   std::optional<std::vector<GridKind>> grids;
+  std::optional<PartBy> partBy;                       ///< [convert] part_by
+  std::optional<Split> split;                         ///< [convert] split
   std::optional<double> weldTolerance;                ///< [convert] weld: world units
   std::optional<ComponentLimit> dropComponents = {};  ///< [convert] drop_components
   std::optional<bool> strict;                         ///< [convert] strict: no repair

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/options/grid_kind.h"
+#include "libvox/options/part_options.h"
 #include "libvox/options/preparation_options.h"
 #include "libvox/options/run_options.h"
 #include "libvox/options/stop_rule.h"
@@ -33,8 +34,10 @@ struct ConvertOptions : PreparationOptions {
   /// The same by voxels: the lowest voxel, then the highest. Both apply.
   std::optional<std::array<int, 6>> clip;
   std::optional<std::vector<GridKind>> grids;  ///< default: density
-  std::optional<StopRule> until;               ///< default: voxel
-  std::optional<Voxelize> voxelize;            ///< default: auto
+  std::optional<PartBy> partBy;      ///< default: the first by which the input has several parts
+  std::optional<Split> split;        ///< default: one grid of all densities
+  std::optional<StopRule> until;     ///< default: voxel
+  std::optional<Voxelize> voxelize;  ///< default: auto
   Separation separation = Separation::k6;
   VolumeOptions volume;
   /// Replaces the textures and colours of all objects, and adds the color grid to those of the

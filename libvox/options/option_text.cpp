@@ -37,6 +37,8 @@ void forEachField(Options& options, Visit&& visit) {
   visit("weld", options.weldTolerance);
   visit("drop-components", options.dropComponents);
   visit("texture", options.texture);
+  visit("part-by", options.partBy, kPartByNames);
+  visit("split", options.split, kSplitNames);
   visit("fill", options.volume.fill, kFillNames);
   visit("edge", options.volume.edge, kEdgeNames);
   visit("alpha", options.volume.alpha, kAlphaNames);

@@ -12,8 +12,6 @@
 
 #include <openvdb/tools/Prune.h>
 
-#include <algorithm>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -32,13 +30,7 @@ class ObjectColors {
  public:
   ObjectColors(std::span<const PreparedSurface> surfaces, const openvdb::math::Transform& transform)
       : feet_(footSurfaces(surfaces)), transform_(transform) {
-    std::uint32_t owners = 0;
-    for (std::size_t s = 0; s < surfaces.size(); ++s) {
-      objects_.push_back({owners, SurfaceColors(surfaces[s])});
-      const std::size_t triangles = feet_.flat[s].triangles.faceCount();
-      owners += static_cast<std::uint32_t>(triangles > 0 ? triangles
-                                                         : surfaces[s].base.mesh.cornerCount());
-    }
+    for (const PreparedSurface& surface : surfaces) colors_.emplace_back(surface);
   }
 
   /// @param object  with a texture
@@ -47,7 +39,7 @@ class ObjectColors {
     const Vec3d world(transform_.indexToWorld(voxel).asPointer());
     return asFloats(placed.texture.colorAt(placed.fromWorld * world));
   }
-  bool mayBeTransparent() const { return objects_[0].colors.mayBeTransparent(); }
+  bool mayBeTransparent() const { return colors_[0].mayBeTransparent(); }
 
   /// Switches off the voxels of the only object whose foot is transparent.
   void cut(openvdb::MaskTree& voxels, const MemoryBudget& budget, Progress& progress) const {
@@ -56,12 +48,12 @@ class ObjectColors {
               [&](const FootBins& bins, const openvdb::Coord& origin, const LeafFeet& feet) {
                 auto* const leaf = voxels.probeLeaf(origin);
                 feet.forEachFound([&](unsigned i) {
-                  if (lookAtFoot(0, bins, feet.place[i])[3] < kLeastCoverage) leaf->setValueOff(i);
+                  if (lookAtFoot(bins, feet.place[i])[3] < kLeastCoverage) leaf->setValueOff(i);
                 });
               });
   }
 
-  bool hasColorsByPlace(std::size_t object) const { return objects_[object].colors.hasColors(); }
+  bool hasColorsByPlace(std::size_t object) const { return colors_[object].hasColors(); }
 
   /// Paints voxels with the colours of the objects that they are closest to.
   void paintByFeet(openvdb::Vec3SGrid& color, const openvdb::MaskTree& voxels, float reach,
@@ -77,35 +69,25 @@ class ObjectColors {
   }
 
  private:
-  struct Object {
-    std::uint32_t firstOwner;  // of its cells
-    SurfaceColors colors;
-  };
-
   openvdb::Vec3f atFoot(const FootBins& bins, const FootPlace& at,
                         const openvdb::Coord& voxel) const {
-    const auto next =
-        std::upper_bound(objects_.begin(), objects_.end(), at.cell->owner,
-                         [](std::uint32_t owner, const Object& o) { return owner < o.firstOwner; });
-    const auto number = static_cast<std::size_t>(next - objects_.begin()) - 1;
+    const std::size_t number = feet_.ownerOf(*at.cell).surface;
     if (feet_.surfaces[number].texture) return ofTexture(number, voxel);
-    const Object& object = objects_[number];
-    if (!object.colors.hasColors()) return openvdb::Vec3f(kPlainColor);
-    return colorOf(lookAtFoot(number, bins, at));
+    if (!colors_[number].hasColors()) return openvdb::Vec3f(kPlainColor);
+    return colorOf(lookAtFoot(bins, at));
   }
 
-  Vec4f lookAtFoot(std::size_t number, const FootBins& bins, const FootPlace& at) const {
-    const Object& object = objects_[number];
-    const std::uint32_t owner = at.cell->owner - object.firstOwner;
-    if (at.cell->kind == CellKind::kTriangle)
-      return object.colors.at(&feet_.flat[number].corners[std::size_t{3} * owner], at.a, at.b);
+  Vec4f lookAtFoot(const FootBins& bins, const FootPlace& at) const {
+    const FootSurfaces::Owner owner = feet_.ownerOf(*at.cell);
+    const SurfaceColors& colors = colors_[owner.surface];
+    if (owner.triangle != nullptr) return colors.at(owner.triangle, at.a, at.b);
     const SurfacePlace place = placeAt(bins, at);
-    return object.colors.at(owner, place.u, place.v);
+    return colors.at(owner.corner, place.u, place.v);
   }
 
   FootSurfaces feet_;
   const openvdb::math::Transform& transform_;
-  std::vector<Object> objects_;
+  std::vector<SurfaceColors> colors_;
 };
 
 /// The voxels of a mask, and one more on all sides.

@@ -18,6 +18,8 @@
 #include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/metadata.h"
+#include "libvox/pipeline/part_grid.h"
+#include "libvox/pipeline/parts.h"
 #include "libvox/pipeline/polygons.h"
 #include "libvox/pipeline/prepare_scene.h"
 #include "libvox/pipeline/refine.h"
@@ -87,7 +89,8 @@ void cropGrid(openvdb::GridBase& grid, const Region& region) {
     else
       openvdb::tools::pruneInactive(typed.tree());
   };
-  using Kinds = openvdb::TypeList<openvdb::MaskGrid, openvdb::FloatGrid, openvdb::Vec3SGrid>;
+  using Kinds = openvdb::TypeList<openvdb::MaskGrid, openvdb::FloatGrid, openvdb::Vec3SGrid,
+                                  openvdb::Int32Grid>;
   grid.apply<Kinds>(cropTree);
 }
 
@@ -231,7 +234,7 @@ openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
                                 const VolumeSettings& volume, const openvdb::MetaMap& metadata,
                                 std::vector<std::string>& warnings) {
   grid->setName(gridNameFor(kind, volume.target));
-  grid->setSaveFloatAsHalf(volume.half && fitsHalf(*grid, warnings));
+  if (kind != GridKind::kPart) grid->setSaveFloatAsHalf(volume.half && fitsHalf(*grid, warnings));
   for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
     grid->insertMeta(entry->first, *entry->second);
   return grid;
@@ -244,6 +247,8 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   PreparedScene prepared = prepareScene(scene, request, progress, report);
   if (!prepared.estimate.refusal.empty()) throw LimitError(prepared.estimate.refusal);
   const bool marks = needsVoxels(request.grids);
+  // Parts go from the surface to the inside, so they are cropped at last.
+  const Region region = request.spreadsParts() ? Region{} : prepared.region;
   openvdb::MaskGrid::Ptr mask = openvdb::MaskGrid::create();
   mask->setTransform(transformOfFile(request, prepared.transform));
   openvdb::MaskGrid::Ptr near = mask;  // the voxels asked for, and a few around them
@@ -252,9 +257,9 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
     mask = markObjects(scene, request, prepared, progress, report);
     near = mask;
     if (request.crops()) {
-      near = cropped(*mask, prepared.region.grown(kMarginOfSoft));
+      near = cropped(*mask, region.grown(kMarginOfSoft));
       for (PreparedSurface& surface : prepared.surfaces)
-        if (surface.voxels) crop(*surface.voxels, prepared.region.grown(kMarginOfSoft));
+        if (surface.voxels) crop(*surface.voxels, region.grown(kMarginOfSoft));
       report.activeVoxels = cropped(*mask, prepared.region)->activeVoxelCount();
     }
   }
@@ -274,26 +279,62 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   result.compression = volume.compression;
   const StageTimer timer(report.gridsSeconds);
   const openvdb::MetaMap metadata = describe(scene, request, report);
-  openvdb::MaskGrid::Ptr soft;
-  result.grids.resize(request.grids.size());
+  GridSources sources{near, prepared.surfaces, markVoxels};
+  sources.partCount = prepared.partNames.size();
+  sources.region = region;
+  const auto make = [&](GridKind kind, const VolumeSettings& settings) {
+    sources.mask = kind == GridKind::kDensity ? mask : near;
+    return makeGrid(kind, sources, settings, prepared.budget, progress, report.warnings);
+  };
+  std::vector<openvdb::GridBase::Ptr> made(request.grids.size());
+  openvdb::FloatGrid::Ptr density;
+  openvdb::Int32Grid::Ptr parts;
+  const auto makeParts = [&] {
+    if (request.spreadsParts() && !density) {
+      VolumeSettings hard = volume;
+      hard.edge = Edge::kHard;
+      density = openvdb::gridPtrCast<openvdb::FloatGrid>(make(GridKind::kDensity, hard));
+    }
+    if (request.spreadsParts()) sources.solid = density;
+    parts = openvdb::gridPtrCast<openvdb::Int32Grid>(make(GridKind::kPart, volume));
+  };
   for (const std::size_t i : orderOf(request.grids)) {
     const GridKind kind = request.grids[i];
     const double work = workOf(kind);
     progress.begin("grids", kind == GridKind::kSurface && !marks ? work / 2 : work);
-    openvdb::GridBase::Ptr grid = makeGrid(kind,
-                                           {kind == GridKind::kDensity ? mask : near,
-                                            prepared.surfaces, markVoxels, soft, prepared.region},
-                                           volume, prepared.budget, progress, report.warnings);
-    if (kind == GridKind::kDensity && volume.edge == Edge::kSoft)
-      soft = cropped(*softVoxels(*openvdb::gridPtrCast<openvdb::FloatGrid>(grid), *mask),
-                     prepared.region.grown(1));
-    if (grid == near && request.crops()) grid = near->deepCopyGrid();  // others still need `near`
-    cropGrid(*grid, prepared.region);
-    result.grids[i] = finished(grid, kind, volume, metadata, report.warnings);
-    // OpenVDB rounds when it copies a transform that moves.
-    if (const auto& origin = request.resolution.origin; origin && !origin->isZero(0))
-      result.grids[i]->setTransform(transformOfFile(request, prepared.transform));
+    if (kind == GridKind::kPart) {
+      makeParts();
+      made[i] = parts;
+      continue;
+    }
+    made[i] = make(kind, volume);
+    if (kind == GridKind::kDensity) {
+      density = openvdb::gridPtrCast<openvdb::FloatGrid>(made[i]);
+      if (volume.edge == Edge::kSoft)
+        sources.soft = cropped(*softVoxels(*density, *mask), region.grown(1));
+    }
+    if (made[i] == near && request.crops()) made[i] = near->deepCopyGrid();  // others need `near`
   }
+  if (request.splits && !parts) makeParts();
+  if (parts && request.crops()) cropGrid(*parts, prepared.region);
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    cropGrid(*made[i], prepared.region);
+    const openvdb::GridBase::Ptr grid =
+        finished(made[i], request.grids[i], volume, metadata, report.warnings);
+    if (grid == parts)
+      grid->insertMeta(kPartsMetadata, openvdb::StringMetadata(partsJson(prepared.partNames)));
+    if (grid != density || !request.splits || density->activeVoxelCount() == 0) {
+      result.grids.push_back(grid);
+      continue;
+    }
+    for (const auto& part : splitByParts(*density, parts->tree(), prepared.partNames,
+                                         prepared.budget, report.warnings))
+      result.grids.push_back(part);
+  }
+  // OpenVDB rounds when it copies a transform that moves.
+  if (const auto& origin = request.resolution.origin; origin && !origin->isZero(0))
+    for (const auto& grid : result.grids)
+      grid->setTransform(transformOfFile(request, prepared.transform));
   if (request.crops()) warnOfEmpty(result, report);
   if (!marks) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;

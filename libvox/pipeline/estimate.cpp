@@ -301,6 +301,20 @@ GridEstimate estimateVectors(GridKind kind, const Measure& m, bool vary,
   return grid;
 }
 
+/// Parts of the surface; with Fill::kSolid also of the inside, voxel by voxel.
+GridEstimate estimateParts(const Measure& m, const VolumeSettings& volume,
+                           std::optional<double> voxels) {
+  GridEstimate grid = estimateDensity(m, volume);
+  grid.kind = GridKind::kPart;
+  if (voxels && volume.fill == Fill::kSurface) grid.voxels = *voxels;
+  grid.peakBytes = grid.bytes + kCellBytes * m.area;
+  constexpr double kNeighbours = 200;  // of a leaf
+  if (volume.fill == Fill::kSolid)
+    grid.peakBytes += m.volume / FloatLeaf::SIZE *
+                      (sizeof(FloatLeaf) + FloatLeaf::SIZE * sizeof(float) + kNeighbours);
+  return grid;
+}
+
 /// Number of largest nodes at any resolution. A compact model around the origin always has some; a
 /// model that is scattered over far more space than its surface fills keeps all of them.
 double fixedUppers(const Measure& m) {
@@ -327,6 +341,8 @@ GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& v
       return estimateVectors(kind, m, m.smooth, voxels);
     case GridKind::kColor:
       return estimateVectors(kind, m, m.textured, voxels);
+    case GridKind::kPart:
+      return estimateParts(m, volume, voxels);
   }
   return {kind};
 }
@@ -349,6 +365,8 @@ Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<cons
     GridEstimate grid = estimateOf(kind, measure, volume, withDensity);
     if (needsWhole && kind == GridKind::kSurface)
       grid.peakBytes = estimateSurface(marked, volume).peakBytes;
+    if (needsWhole && kind == GridKind::kPart)
+      grid.peakBytes = estimateParts(marked, volume, {}).peakBytes;
     if (needsWhole && kind == GridKind::kDensity)
       grid.peakBytes += 2 * (estimateMask(marked).bytes - estimateMask(measure).bytes);
     if (kind != GridKind::kMask) {

@@ -60,11 +60,26 @@ std::vector<openvdb::Coord> binsOf(const openvdb::MaskTree& voxels) {
 }
 
 FootSurfaces footSurfaces(std::span<const PreparedSurface> surfaces) {
-  FootSurfaces all{surfaces, {}};
-  for (const PreparedSurface& surface : surfaces)
+  FootSurfaces all{surfaces, {}, {}};
+  std::uint32_t owners = 0;
+  for (const PreparedSurface& surface : surfaces) {
     all.flat.push_back(levelOf(surface.way) == 0 ? flatTriangles(surface.base.mesh)
                                                  : FootSurfaces::Flat{});
+    all.firstOwners.push_back(owners);
+    const std::size_t triangles = all.flat.back().triangles.faceCount();
+    owners +=
+        static_cast<std::uint32_t>(triangles > 0 ? triangles : surface.base.mesh.cornerCount());
+  }
   return all;
+}
+
+FootSurfaces::Owner FootSurfaces::ownerOf(const BinnedCell& cell) const {
+  const auto next = std::upper_bound(firstOwners.begin(), firstOwners.end(), cell.owner);
+  const auto number = static_cast<std::size_t>(next - firstOwners.begin()) - 1;
+  const std::uint32_t owner = cell.owner - firstOwners[number];
+  if (cell.kind != CellKind::kTriangle) return {number, owner, nullptr};
+  const Index* const corners = &flat[number].corners[std::size_t{3} * owner];
+  return {number, corners[0], corners};
 }
 
 void visitFeet(const FootSurfaces& surfaces, const openvdb::MaskTree& voxels, float firstReach,

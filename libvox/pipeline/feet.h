@@ -3,6 +3,8 @@
 #include "libvox/foot/nearest_feet.h"
 #include "libvox/pipeline/prepared_surface.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -23,6 +25,15 @@ struct FootSurfaces {
     std::vector<Index> corners;
   };
   std::vector<Flat> flat;
+  std::vector<std::uint32_t> firstOwners;  ///< of the cells of each surface
+
+  /// What a cell of the bins of these surfaces lies on.
+  struct Owner {
+    std::size_t surface;
+    Index corner;           ///< of the base mesh, whose square has the cell
+    const Index* triangle;  ///< three corners of a face, the first as above; null: limit surface
+  };
+  Owner ownerOf(const BinnedCell& cell) const;
 };
 
 /// How far feet are first looked for, in voxels. A voxel that a surface crosses is nearer than

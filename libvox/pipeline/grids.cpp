@@ -11,6 +11,7 @@
 #include "libvox/pipeline/feet.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/normals.h"
+#include "libvox/pipeline/part_grid.h"
 #include "libvox/pipeline/soft_density.h"
 #include "libvox/volume/density.h"
 #include "libvox/volume/fill.h"
@@ -83,7 +84,7 @@ bool needsVoxels(std::span<const GridKind> kinds) {
 bool needsInside(std::span<const GridKind> kinds, const VolumeSettings& volume) {
   return std::any_of(kinds.begin(), kinds.end(), [&](GridKind kind) {
     return kind == GridKind::kSurface ||
-           (kind == GridKind::kDensity && volume.fill == Fill::kSolid);
+           ((kind == GridKind::kDensity || kind == GridKind::kPart) && volume.fill == Fill::kSolid);
   });
 }
 
@@ -91,7 +92,7 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
                                 const VolumeSettings& volume, MemoryBudget& budget,
                                 Progress& progress, std::vector<std::string>& warnings) {
   progress.check();
-  const auto& [mask, surfaces, markVoxels, soft, region] = sources;
+  const auto& [mask, surfaces, markVoxels, soft, solid, partCount, region] = sources;
   switch (kind) {
     case GridKind::kMask:
       break;
@@ -105,6 +106,9 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
                             budget, progress);
     case GridKind::kColor:
       return makeColorGrid(*mask, soft.get(), surfaces, budget, progress);
+    case GridKind::kPart:
+      return makePartGrid(soft ? *soft : *mask, soft ? kReachOfSoft : kReachOfCrossed,
+                          solid ? &solid->tree() : nullptr, surfaces, partCount, budget, progress);
   }
   return mask;
 }
@@ -113,11 +117,13 @@ std::uint64_t expectedBytes(std::span<const openvdb::GridBase::Ptr> grids) {
   constexpr std::uint64_t kMask = 145;  // of a leaf
   constexpr std::uint64_t kFog = 195;
   constexpr std::uint64_t kDistances = 850;
+  constexpr std::uint64_t kParts = 260;
   constexpr std::uint64_t kVectors = 800;
   std::uint64_t bytes = 0;
   for (const auto& grid : grids) {
     std::uint64_t perLeaf = kDistances;
     if (grid->isType<openvdb::MaskGrid>()) perLeaf = kMask;
+    if (grid->isType<openvdb::Int32Grid>()) perLeaf = kParts;
     if (grid->isType<openvdb::Vec3SGrid>()) perLeaf = kVectors;
     if (grid->getGridClass() == openvdb::GRID_FOG_VOLUME) perLeaf = kFog;
     bytes += grid->constBaseTree().leafCount() * perLeaf;

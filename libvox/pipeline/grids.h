@@ -7,6 +7,7 @@
 #include "libvox/pipeline/distance.h"
 #include "libvox/pipeline/prepared_surface.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -36,6 +37,10 @@ struct GridSources {
   MarkVoxels markVoxels;  ///< makes the active voxels of all surfaces if the mask is empty
   /// The voxels of a soft density near the surface (soft_density.h); null if there is none.
   std::shared_ptr<openvdb::MaskGrid> soft = nullptr;
+  /// A density that holds the inside, of which the grid `part` tells the parts; null if it does
+  /// not.
+  std::shared_ptr<openvdb::FloatGrid> solid = nullptr;
+  std::size_t partCount = 0;
   Region region = {};  ///< other voxels need no values, but grids may have some
 };
 

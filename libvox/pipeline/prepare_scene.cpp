@@ -12,6 +12,7 @@
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/object_look.h"
+#include "libvox/pipeline/parts.h"
 #include "libvox/pipeline/plan.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/work.h"
@@ -76,8 +77,9 @@ void notePreparation(const PreparedObject& prepared, const GridTransform& transf
 
 /// An object, ready to subdivide in index space.
 PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_t i,
-                              const GridTransform& transform, ImageReader& images,
-                              MemoryBudget& budget, Progress& progress, ConvertReport& report) {
+                              const GridTransform& transform, const Parts& parts,
+                              ImageReader& images, MemoryBudget& budget, Progress& progress,
+                              ConvertReport& report) {
   const SceneObject& object = scene.objects[i];
   const ObjectRequest& request = all.objects[i];
   ObjectReport& part = report.objects.emplace_back();
@@ -96,6 +98,8 @@ PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_
   if ((hasColorGrid(all) || cuts) && !surface.texture)
     surface.look = lookOf(object, request.texture, prepared.faceOrigin,
                           std::move(prepared.texcoords), images, report.warnings);
+  if (!parts.names.empty())
+    for (const Index f : prepared.faceOrigin) surface.partOfFace.push_back(parts.ofFaces[i][f]);
   return surface;
 }
 
@@ -140,12 +144,16 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
   {
     const StageTimer timer(report.prepareSeconds);
     ImageReader images;
+    Parts parts;
+    if (request.hasParts())
+      parts = partsOf(scene, request.partBy ? *request.partBy : defaultPartBy(scene));
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
       prepared.surfaces.push_back(
-          prepareObject(scene, request, i, transform, images, budget, progress, report));
+          prepareObject(scene, request, i, transform, parts, images, budget, progress, report));
     report.inputHash = images.hashWith(scene.inputHash);
     for (PreparedSurface& surface : prepared.surfaces)
-      surface.region = prepared.region.grown(kMarginOfFeet);
+      surface.region = request.spreadsParts() ? Region{} : prepared.region.grown(kMarginOfFeet);
+    prepared.partNames = std::move(parts.names);
   }
   if (needsInside(request.grids, request.volume))
     for (std::size_t i = 0; i < scene.objects.size(); ++i)

@@ -9,6 +9,7 @@
 #include "libvox/pipeline/prepared_surface.h"
 #include "libvox/pipeline/request.h"
 
+#include <string>
 #include <vector>
 
 namespace vox {
@@ -22,6 +23,7 @@ struct PreparedScene {
   Region region = {};                          ///< the voxels asked for
   std::vector<double> areas = {};              ///< areasOf
   std::vector<PreparedSurface> surfaces = {};  ///< one for each object, in index space
+  std::vector<std::string> partNames = {};     ///< if the request has parts (parts.h)
   Estimate estimate = {};                      ///< without levels; may hold a refusal
 };
 

@@ -10,9 +10,11 @@
 
 #include <Eigen/Geometry>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vox {
 
@@ -34,6 +36,7 @@ struct PreparedSurface {
   SurfaceOptions options;  ///< how it is cut into submeshes
   std::optional<PlacedTexture> texture = {};
   SurfaceLook look = {};
+  std::vector<std::int32_t> partOfFace = {};  ///< per face of `base`; or empty
   /// The voxels of this object alone; null if no grid needs the objects separately.
   std::shared_ptr<openvdb::MaskTree> voxels = {};
   Region region = {};  ///< the feet of other voxels are not needed

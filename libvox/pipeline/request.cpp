@@ -74,6 +74,22 @@ std::vector<GridKind> gridsOf(const Scene& scene, const ConvertOptions& options)
   return kinds;
 }
 
+/// Decides what parts are, and whether the density is split into them.
+void resolveParts(const Scene& scene, const ConvertOptions& options, Request& request) {
+  const auto split = options.split ? options.split : scene.split;
+  request.splits = split.has_value();
+  if (!request.hasParts()) return;
+  const auto& kinds = request.grids;
+  if (split && std::find(kinds.begin(), kinds.end(), GridKind::kDensity) == kinds.end())
+    throw UsageError("--split splits the grid density; name it in --grids");
+  const bool byObject = split == Split::kObject;
+  if (byObject && options.partBy.value_or(PartBy::kObject) != PartBy::kObject)
+    throw UsageError("--split object and --part-by " + nameIn(kPartByNames, *options.partBy) +
+                     " contradict each other; use --split part");
+  request.partBy = options.partBy ? options.partBy : scene.partBy;
+  if (byObject) request.partBy = PartBy::kObject;
+}
+
 /// A surface with holes has no inside, and soft values would end beside them.
 void requireCuttable(const Request& request) {
   if (request.volume.alpha == Alpha::kKeep) return;
@@ -177,6 +193,10 @@ void requirePreparable(const Scene& scene, const PreparationOptions& options) {
   }
 }
 
+bool Request::hasParts() const {
+  return splits || std::find(grids.begin(), grids.end(), GridKind::kPart) != grids.end();
+}
+
 Request resolve(const Scene& scene, const ConvertOptions& options) {
   Request request(options);
   request.resolution = resolutionOf(scene, options);
@@ -192,6 +212,7 @@ Request resolve(const Scene& scene, const ConvertOptions& options) {
   request.bounds = boundsOf(options.bounds ? options.bounds : scene.bounds);
   request.clip = options.clip;
   request.grids = gridsOf(scene, options);
+  resolveParts(scene, options, request);
   requireCuttable(request);
   request.optionText = textOf(options, request.resolution, scene.bounds, request.volume);
   requirePreparable(scene, options);

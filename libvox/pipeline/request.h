@@ -81,12 +81,19 @@ struct Request {
   std::optional<Box> bounds;               ///< as in ConvertOptions
   std::optional<std::array<int, 6>> clip;  ///< as in ConvertOptions
   std::vector<GridKind> grids;             ///< in the order asked for
+  std::optional<PartBy> partBy;            ///< what parts are; nothing: defaultPartBy()
+  bool splits = false;                     ///< the grid density becomes a grid for each part
   VolumeSettings volume;
   Separation separation;
   SurfaceOptions surface;
   RunOptions run;
   /// True if not all voxels are wanted.
   bool crops() const { return bounds || clip; }
+
+  /// True if voxels are told by their parts.
+  bool hasParts() const;
+  /// True if parts go from the surface to the inside: then they need all of it.
+  bool spreadsParts() const { return hasParts() && volume.fill == Fill::kSolid; }
 
   std::string optionText;              ///< the options that were set, as metadata `vox_options`
   std::vector<ObjectRequest> objects;  ///< one for each object of the scene
@@ -101,7 +108,8 @@ struct Request {
 /// @throws UsageError  a stop rule, or its combination with the way to voxelize and the separation,
 ///   is impossible (choose.h); a number of the volume options is out of range, or OpenVDB lacks the
 ///   compression; the bounds are no box, or there is an origin without a voxel size; a texture is
-///   asked for without the color grid; as requirePreparable
+///   asked for without the color grid, or a split without the density grid, or by other parts; as
+///   requirePreparable
 Request resolve(const Scene& scene, const ConvertOptions& options);
 
 }  // namespace vox

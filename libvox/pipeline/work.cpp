@@ -27,6 +27,8 @@ double workOfGrid(GridKind kind, Edge edge, double area) {
       return 100 * area;
     case GridKind::kColor:
       return 250 * area;
+    case GridKind::kPart:
+      return 100 * area;
   }
   return 0;
 }
@@ -44,6 +46,8 @@ double workOfWriting(GridKind kind, double area) {
       return 150 * area;
     case GridKind::kColor:
       return 100 * area;
+    case GridKind::kPart:
+      return 32 * area;
   }
   return 0;
 }

@@ -6,6 +6,8 @@
 #include "libvox/core/parallel.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
+#include "libvox/options/part_options.h"
+#include "libvox/volume/joined_parts.h"
 
 #include <openvdb/tools/Prune.h>
 
@@ -60,6 +62,7 @@ GridBase::Ptr chooseGrid(std::span<const GridBase::Ptr> grids, const std::string
     if (!isShowable(*grid) || grid->activeVoxelCount() == 0) continue;
     if (!best || preference(*grid) < preference(*best)) best = grid;
   }
+  if (best && (*best)[kPartNameMetadata]) return joinedParts(grids);
   if (best) return best;
   throw InputError("no grid of numbers has active voxels to show; there are " + namesOf(grids));
 }
@@ -103,7 +106,10 @@ openvdb::MaskTree::ConstPtr solidVoxels(const GridBase::Ptr& grid,
   openvdb::MaskTree::Ptr solid;
   grid->apply<ScalarGrids>([&](const auto& scalar) {
     constexpr double kPartOfLargest = 0.1;
-    const double least = threshold ? *threshold : kPartOfLargest * largestValue(scalar.tree());
+    const bool isPart = grid->isType<openvdb::Int32Grid>() && grid->getName() == "part";
+    const double least = threshold ? *threshold
+                         : isPart  ? 0
+                                   : kPartOfLargest * largestValue(scalar.tree());
     solid = solidVoxels(scalar.tree(), least);
   });
   if (solid->empty())
@@ -166,6 +172,38 @@ openvdb::Vec3SGrid::ConstPtr vectorsNamed(std::span<const GridBase::Ptr> grids,
   return nullptr;
 }
 
+/// A colour for each part: hues that differ much between parts with near numbers.
+openvdb::Vec3f colorOfPart(openvdb::Int32 part) {
+  constexpr double kGoldenPart = 0.6180339887498949;
+  constexpr double kLight = 0.7;
+  constexpr double kGrey = 0.1;
+  const double hue = 6 * std::fmod(kGoldenPart * part, 1.0);
+  openvdb::Vec3f color;
+  for (int k = 0; k < 3; ++k) {
+    const double away = std::abs(std::remainder(hue - 2 * k, 6.0));  // from the hue of channel k
+    color[k] = static_cast<float>(kGrey + (kLight - kGrey) * std::clamp(2 - away, 0.0, 1.0));
+  }
+  return color;
+}
+
+/// Colours of the parts of the grid `part`, if it has the transform of the grid that is shown.
+openvdb::Vec3SGrid::ConstPtr partColors(std::span<const GridBase::Ptr> grids,
+                                        const GridBase& shown) {
+  for (const auto& grid : grids) {
+    const auto parts = openvdb::gridPtrCast<openvdb::Int32Grid>(grid);
+    if (!parts || parts->getName() != "part" || parts->transform() != shown.transform()) continue;
+    const auto colors = std::make_shared<openvdb::Vec3STree>(parts->tree(), openvdb::Vec3f(0),
+                                                             openvdb::TopologyCopy());
+    for (auto value = parts->tree().cbeginValueOn(); value; ++value)
+      if (value.isVoxelValue())
+        colors->setValueOnly(value.getCoord(), colorOfPart(*value));
+      else
+        colors->addTile(value.getLevel(), value.getBoundingBox().min(), colorOfPart(*value), true);
+    return openvdb::Vec3SGrid::create(colors);
+  }
+  return nullptr;
+}
+
 VisibleGrids look(std::span<const GridBase::Ptr> grids, const VisibleOptions& options) {
   const GridBase::Ptr shown = chooseGrid(grids, options.grid);
   requireLinear(*shown);
@@ -186,6 +224,7 @@ VisibleGrids look(std::span<const GridBase::Ptr> grids, const VisibleOptions& op
   visible.toWorld = shown->transformPtr();
   visible.normals = vectorsNamed(grids, "normal", "N", *shown);
   visible.colors = vectorsNamed(grids, "color", "Cd", *shown);
+  if (!visible.colors) visible.colors = partColors(grids, *shown);
   for (const auto& vectors : {visible.normals, visible.colors})
     if (vectors) vectors->tree().readNonresidentBuffers();
   return visible;

@@ -21,7 +21,8 @@ struct VisibleGrids {
 /// Chooses what to show: the grid of the given name, or else the first that has voxels of `mask`,
 /// `density`, `surface` and then any other of numbers. A level set shows its zero isosurface; of
 /// anything else, active voxels above the threshold are solid. Normals are those of `normal` or
-/// `N`, colours those of `color` or `Cd`, if their transform is that of what is shown.
+/// `N`, colours those of `color` or `Cd`, or else a colour for each number of `part`, if their
+/// transform is that of what is shown.
 ///
 /// @throws InputError  nothing can be shown: the message says why
 /// @throws LimitError  voxels are further than 2^30 from the origin

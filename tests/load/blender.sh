@@ -15,7 +15,14 @@ for scene in "$2"/*.toml; do
   "$1" convert "$scene" -o "$folder/scenes/$(basename "$scene" .toml).vdb"
 done
 "$1" convert "$2/toy_jack.toml" -o "$folder/scenes/every_grid.vdb" --dim 64 --fill solid \
-  --grids density,mask,surface,normal,color
+  --grids density,mask,surface,normal,color,part
+
+# Two cubes that overlap, as parts.
+cube="mesh = '$(realpath "$2/cube.obj")'"
+printf '[[object]]\nname = "left"\n%s\n[[object]]\nname = "right"\n%s\ntransform = { translate = [1.2, 0.4, 0.6] }\n' \
+  "$cube" "$cube" >"$folder/cubes.toml"
+"$1" convert "$folder/cubes.toml" -o "$folder/part.vdb" --dim 48 --grids density,part
+"$1" convert "$folder/cubes.toml" -o "$folder/split.vdb" --dim 48 --target blender --split part
 
 cat >"$folder/load.py" <<'PY'
 import glob
@@ -72,6 +79,7 @@ assert kinds >= {
     ("surface", "FLOAT"),
     ("normal", "VECTOR_FLOAT"),
     ("color", "VECTOR_FLOAT"),
+    ("part", "INT"),
 }, kinds
 
 vox_import.frame(volume)
@@ -109,7 +117,19 @@ total = len(pixels) // 4
 assert 0.8 * len(solid) < len(plain) < 1.25 * len(solid), (len(plain), len(solid))
 assert 0.03 * total < len(solid) < 0.6 * total, (len(solid), total)
 assert red + blue > 0.7 * len(solid) and min(red, blue) > 0.2 * len(solid), (red, blue, len(solid))
-print("vox-blender-ok", bpy.app.version_string, len(files), "scenes", found, sides, len(solid), red, blue)
+
+# Each part has a colour of its own, blue and green, with the grid part and without.
+volume.hide_render = True
+for name in "part", "split":
+    parts = vox_import.import_vdb(os.path.join(os.path.dirname(vdb), name + ".vdb"))
+    vox_import.frame(parts)
+    shown = solid_in(rendered(os.path.join(os.path.dirname(vdb), name + ".png")))
+    blue = sum(b > 1.3 * r and b > 1.2 * g for r, g, b in shown)
+    green = sum(g > 1.1 * r and g > 1.3 * b for r, g, b in shown)
+    assert len(shown) > 0.1 * total and min(blue, green) > 0.25 * len(shown), (name, len(shown), blue, green)
+    assert blue + green > 0.85 * len(shown), (name, len(shown), blue, green)
+    bpy.data.objects.remove(parts)
+print("vox-blender-ok", bpy.app.version_string, len(files), "scenes", found, sides, len(solid), red)
 PY
 # Blender exits with 0 even when its script fails; the last line is what counts.
 blender --background --factory-startup --python "$folder/load.py" -- \
