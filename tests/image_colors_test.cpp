@@ -234,6 +234,7 @@ TEST_CASE("texture coordinates follow corners through repair, splits and creases
   for (const bool creases : {false, true}) {
     CAPTURE(creases);
     ObjectPreparation preparation;
+    preparation.followsTexcoords = true;
     if (creases) preparation.crease.degrees = 30;
     Progress progress;
     const PreparedObject prepared =

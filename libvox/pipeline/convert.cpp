@@ -240,103 +240,164 @@ openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
   return grid;
 }
 
+/// The active voxels of a scene.
+struct MarkedVoxels {
+  openvdb::MaskGrid::Ptr all;   ///< as many as tell the inside
+  openvdb::MaskGrid::Ptr near;  ///< those asked for, and a few around them
+};
+
+/// @param region  of the grids; all voxels unless the request crops
+MarkedVoxels markedVoxels(const Scene& scene, const Request& request, const Region& region,
+                          PreparedScene& prepared, Progress& progress, ConvertReport& report) {
+  const StageTimer timer(report.surfaceSeconds);
+  const auto mask = markObjects(scene, request, prepared, progress, report);
+  if (!request.crops()) return {mask, mask};
+  const Region around = region.grown(kMarginOfSoft);
+  for (PreparedSurface& surface : prepared.surfaces)
+    if (surface.voxels) crop(*surface.voxels, around);
+  report.activeVoxels = cropped(*mask, prepared.region)->activeVoxelCount();
+  return {mask, cropped(*mask, around)};
+}
+
+/// The grids of a request, in its order, before they are cropped and named.
+struct MadeGrids {
+  std::vector<openvdb::GridBase::Ptr> asked;
+  openvdb::FloatGrid::Ptr density;  ///< null if nothing needs it
+  openvdb::Int32Grid::Ptr parts;
+};
+
+/// Makes grids one after the other; later ones use earlier ones.
+class GridMaker {
+ public:
+  GridMaker(const Scene& scene, const Request& request, PreparedScene& prepared, Progress& progress,
+            ConvertReport& report)
+      : scene_(scene),
+        request_(request),
+        prepared_(prepared),
+        progress_(progress),
+        report_(report),
+        marks_(needsVoxels(request.grids)),
+        area_(std::accumulate(prepared.areas.begin(), prepared.areas.end(), 0.0)) {
+    // Parts go from the surface to the inside, so they are cropped at last.
+    sources_.region = request.spreadsParts() ? Region{} : prepared.region;
+    sources_.surfaces = prepared.surfaces;
+    sources_.markVoxels = [this]() -> const openvdb::MaskTree& { return voxelsOfAll(); };
+    sources_.partCount = prepared.partNames.size();
+    voxels_.all = openvdb::MaskGrid::create();
+    voxels_.all->setTransform(transformOfFile(request, prepared.transform));
+    voxels_.near = voxels_.all;
+    if (marks_) voxels_ = markedVoxels(scene, request, sources_.region, prepared, progress, report);
+  }
+  GridMaker(const GridMaker&) = delete;
+  GridMaker& operator=(const GridMaker&) = delete;
+
+  MadeGrids make() {
+    made_.asked.resize(request_.grids.size());
+    for (const std::size_t i : orderOf(request_.grids)) {
+      const GridKind kind = request_.grids[i];
+      progress_.begin("grids", partOfWork(kind));
+      made_.asked[i] = kind == GridKind::kPart ? parts() : gridOf(kind, request_.volume);
+      if (kind == GridKind::kDensity) noteDensity(made_.asked[i]);
+      if (made_.asked[i] == voxels_.near && request_.crops())
+        made_.asked[i] = voxels_.near->deepCopyGrid();  // others still need it
+    }
+    if (request_.splits) parts();
+    return made_;
+  }
+
+ private:
+  /// A level set may have to mark voxels in between, as half of its work.
+  double partOfWork(GridKind kind) const {
+    const double work = workOfGrid(kind, request_.volume.edge, area_);
+    return kind == GridKind::kSurface && !marks_ ? work / 2 : work;
+  }
+
+  const openvdb::MaskTree& voxelsOfAll() {
+    if (marks_) return voxels_.all->tree();
+    ConvertReport unused = report_;
+    later_ = markObjects(scene_, request_, prepared_, progress_, unused);
+    progress_.begin("grids", partOfWork(GridKind::kSurface));  // go on where makeGrid was
+    return later_->tree();
+  }
+
+  openvdb::GridBase::Ptr gridOf(GridKind kind, const VolumeSettings& settings) {
+    sources_.mask = kind == GridKind::kDensity ? voxels_.all : voxels_.near;
+    return makeGrid(kind, sources_, settings, prepared_.budget, progress_, report_.warnings);
+  }
+
+  void noteDensity(const openvdb::GridBase::Ptr& grid) {
+    made_.density = openvdb::gridPtrCast<openvdb::FloatGrid>(grid);
+    if (request_.volume.edge == Edge::kSoft)
+      sources_.soft = cropped(*softVoxels(*made_.density, *voxels_.all), sources_.region.grown(1));
+  }
+
+  openvdb::Int32Grid::Ptr parts() {
+    if (made_.parts) return made_.parts;
+    if (request_.spreadsParts()) {
+      VolumeSettings hard = request_.volume;
+      hard.edge = Edge::kHard;
+      sources_.solid =
+          made_.density
+              ? made_.density
+              : openvdb::gridPtrCast<openvdb::FloatGrid>(gridOf(GridKind::kDensity, hard));
+    }
+    made_.parts =
+        openvdb::gridPtrCast<openvdb::Int32Grid>(gridOf(GridKind::kPart, request_.volume));
+    return made_.parts;
+  }
+
+  const Scene& scene_;
+  const Request& request_;
+  PreparedScene& prepared_;
+  Progress& progress_;
+  ConvertReport& report_;
+  bool marks_;
+  double area_;
+  MarkedVoxels voxels_;
+  openvdb::MaskGrid::Ptr later_;
+  GridSources sources_;
+  MadeGrids made_;
+};
+
+/// The grids of the output: cropped, named, with metadata, and split into parts.
+std::vector<openvdb::GridBase::Ptr> finishedGrids(const MadeGrids& made, const Scene& scene,
+                                                  const Request& request, PreparedScene& prepared,
+                                                  ConvertReport& report) {
+  const openvdb::MetaMap metadata = describe(scene, request, report);
+  std::vector<openvdb::GridBase::Ptr> grids;
+  if (made.parts) cropGrid(*made.parts, prepared.region);
+  for (std::size_t i = 0; i < made.asked.size(); ++i) {
+    cropGrid(*made.asked[i], prepared.region);
+    const openvdb::GridBase::Ptr grid =
+        finished(made.asked[i], request.grids[i], request.volume, metadata, report.warnings);
+    if (grid == made.parts)
+      grid->insertMeta(kPartsMetadata, openvdb::StringMetadata(partsJson(prepared.partNames)));
+    if (grid != made.density || !request.splits || made.density->activeVoxelCount() == 0) {
+      grids.push_back(grid);
+      continue;
+    }
+    for (const auto& part : splitByParts(*made.density, made.parts->tree(), prepared.partNames,
+                                         prepared.budget, report.warnings))
+      grids.push_back(part);
+  }
+  // OpenVDB rounds when it copies a transform that moves.
+  if (const auto& origin = request.resolution.origin; origin && !origin->isZero(0))
+    for (const auto& grid : grids) grid->setTransform(transformOfFile(request, prepared.transform));
+  return grids;
+}
+
 Conversion convertScene(const Scene& scene, const Request& request, Progress& progress) {
   openvdb::initialize();
   Conversion result;
   ConvertReport& report = result.report;
   PreparedScene prepared = prepareScene(scene, request, progress, report);
   if (!prepared.estimate.refusal.empty()) throw LimitError(prepared.estimate.refusal);
-  const bool marks = needsVoxels(request.grids);
-  // Parts go from the surface to the inside, so they are cropped at last.
-  const Region region = request.spreadsParts() ? Region{} : prepared.region;
-  openvdb::MaskGrid::Ptr mask = openvdb::MaskGrid::create();
-  mask->setTransform(transformOfFile(request, prepared.transform));
-  openvdb::MaskGrid::Ptr near = mask;  // the voxels asked for, and a few around them
-  if (marks) {
-    const StageTimer timer(report.surfaceSeconds);
-    mask = markObjects(scene, request, prepared, progress, report);
-    near = mask;
-    if (request.crops()) {
-      near = cropped(*mask, region.grown(kMarginOfSoft));
-      for (PreparedSurface& surface : prepared.surfaces)
-        if (surface.voxels) crop(*surface.voxels, region.grown(kMarginOfSoft));
-      report.activeVoxels = cropped(*mask, prepared.region)->activeVoxelCount();
-    }
-  }
-  openvdb::MaskGrid::Ptr laterMask;
-  const auto workOf = [&,
-                       area = std::accumulate(prepared.areas.begin(), prepared.areas.end(), 0.0)](
-                          GridKind kind) { return workOfGrid(kind, request.volume.edge, area); };
-  const MarkVoxels markVoxels = [&]() -> const openvdb::MaskTree& {
-    if (marks) return mask->tree();
-    ConvertReport unused = report;
-    laterMask = markObjects(scene, request, prepared, progress, unused);
-    progress.begin("grids", workOf(GridKind::kSurface) / 2);  // go on where makeGrid was
-    return laterMask->tree();
-  };
-
-  const VolumeSettings& volume = request.volume;
-  result.compression = volume.compression;
+  GridMaker maker(scene, request, prepared, progress, report);
   const StageTimer timer(report.gridsSeconds);
-  const openvdb::MetaMap metadata = describe(scene, request, report);
-  GridSources sources{near, prepared.surfaces, markVoxels};
-  sources.partCount = prepared.partNames.size();
-  sources.region = region;
-  const auto make = [&](GridKind kind, const VolumeSettings& settings) {
-    sources.mask = kind == GridKind::kDensity ? mask : near;
-    return makeGrid(kind, sources, settings, prepared.budget, progress, report.warnings);
-  };
-  std::vector<openvdb::GridBase::Ptr> made(request.grids.size());
-  openvdb::FloatGrid::Ptr density;
-  openvdb::Int32Grid::Ptr parts;
-  const auto makeParts = [&] {
-    if (request.spreadsParts() && !density) {
-      VolumeSettings hard = volume;
-      hard.edge = Edge::kHard;
-      density = openvdb::gridPtrCast<openvdb::FloatGrid>(make(GridKind::kDensity, hard));
-    }
-    if (request.spreadsParts()) sources.solid = density;
-    parts = openvdb::gridPtrCast<openvdb::Int32Grid>(make(GridKind::kPart, volume));
-  };
-  for (const std::size_t i : orderOf(request.grids)) {
-    const GridKind kind = request.grids[i];
-    const double work = workOf(kind);
-    progress.begin("grids", kind == GridKind::kSurface && !marks ? work / 2 : work);
-    if (kind == GridKind::kPart) {
-      makeParts();
-      made[i] = parts;
-      continue;
-    }
-    made[i] = make(kind, volume);
-    if (kind == GridKind::kDensity) {
-      density = openvdb::gridPtrCast<openvdb::FloatGrid>(made[i]);
-      if (volume.edge == Edge::kSoft)
-        sources.soft = cropped(*softVoxels(*density, *mask), region.grown(1));
-    }
-    if (made[i] == near && request.crops()) made[i] = near->deepCopyGrid();  // others need `near`
-  }
-  if (request.splits && !parts) makeParts();
-  if (parts && request.crops()) cropGrid(*parts, prepared.region);
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    cropGrid(*made[i], prepared.region);
-    const openvdb::GridBase::Ptr grid =
-        finished(made[i], request.grids[i], volume, metadata, report.warnings);
-    if (grid == parts)
-      grid->insertMeta(kPartsMetadata, openvdb::StringMetadata(partsJson(prepared.partNames)));
-    if (grid != density || !request.splits || density->activeVoxelCount() == 0) {
-      result.grids.push_back(grid);
-      continue;
-    }
-    for (const auto& part : splitByParts(*density, parts->tree(), prepared.partNames,
-                                         prepared.budget, report.warnings))
-      result.grids.push_back(part);
-  }
-  // OpenVDB rounds when it copies a transform that moves.
-  if (const auto& origin = request.resolution.origin; origin && !origin->isZero(0))
-    for (const auto& grid : result.grids)
-      grid->setTransform(transformOfFile(request, prepared.transform));
+  result.grids = finishedGrids(maker.make(), scene, request, prepared, report);
+  result.compression = request.volume.compression;
   if (request.crops()) warnOfEmpty(result, report);
-  if (!marks) report.activeVoxels = result.grids[0]->activeVoxelCount();
+  if (!needsVoxels(request.grids)) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
 }
 

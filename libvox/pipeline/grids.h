@@ -32,9 +32,9 @@ bool needsInside(std::span<const GridKind> kinds, const VolumeSettings& volume);
 
 /// What grids are made of.
 struct GridSources {
-  std::shared_ptr<openvdb::MaskGrid> mask;  ///< active voxels; empty unless a grid needs them
-  std::span<const PreparedSurface> surfaces;
-  MarkVoxels markVoxels;  ///< makes the active voxels of all surfaces if the mask is empty
+  std::shared_ptr<openvdb::MaskGrid> mask = nullptr;  ///< active voxels; empty unless needed
+  std::span<const PreparedSurface> surfaces = {};
+  MarkVoxels markVoxels = {};  ///< makes the active voxels of all surfaces if the mask is empty
   /// The voxels of a soft density near the surface (soft_density.h); null if there is none.
   std::shared_ptr<openvdb::MaskGrid> soft = nullptr;
   /// A density that holds the inside, of which the grid `part` tells the parts; null if it does

@@ -94,8 +94,7 @@ PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_
   budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
   PreparedSurface surface{object.name, std::move(prepared.base), request.way, all.surface,
                           placedTexture(request.texture, object, transform.turn)};
-  const bool cuts = all.volume.alpha == Alpha::kCut;
-  if ((hasColorGrid(all) || cuts) && !surface.texture)
+  if (all.hasLooks() && !surface.texture)
     surface.look = lookOf(object, request.texture, prepared.faceOrigin,
                           std::move(prepared.texcoords), images, report.warnings);
   if (!parts.names.empty())

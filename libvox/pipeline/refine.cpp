@@ -369,8 +369,9 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
       prepared.creases = cut.counts;
       origin.points = composed(origin.points, pointBeforeCut);
     }
-    prepared.texcoords =
-        followedTexcoords(object.mesh, mesh, {origin.weldedTo, origin.points, origin.faces});
+    if (preparation.followsTexcoords)
+      prepared.texcoords =
+          followedTexcoords(object.mesh, mesh, {origin.weldedTo, origin.points, origin.faces});
     base = baseLevel(std::move(mesh), preparation.boundary);
     base.seam = std::move(seam);
     prepared.faceOrigin = std::move(origin.faces);

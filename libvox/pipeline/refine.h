@@ -43,7 +43,7 @@ struct PreparedObject {
   InterpolationReport interpolation;
   std::vector<std::string> warnings;
   std::vector<Index> faceOrigin;  ///< per face: the face of the object's mesh
-  std::vector<Vec2f> texcoords;   ///< per corner, from the object's mesh; or empty
+  std::vector<Vec2f> texcoords;   ///< per corner, if they follow; or empty
 };
 
 /// Box of the components of an object that are not dropped, in world units.

@@ -193,6 +193,11 @@ void requirePreparable(const Scene& scene, const PreparationOptions& options) {
   }
 }
 
+bool Request::hasLooks() const {
+  return volume.alpha == Alpha::kCut ||
+         std::find(grids.begin(), grids.end(), GridKind::kColor) != grids.end();
+}
+
 bool Request::hasParts() const {
   return splits || std::find(grids.begin(), grids.end(), GridKind::kPart) != grids.end();
 }
@@ -214,6 +219,8 @@ Request resolve(const Scene& scene, const ConvertOptions& options) {
   request.grids = gridsOf(scene, options);
   resolveParts(scene, options, request);
   requireCuttable(request);
+  for (ObjectRequest& object : request.objects)
+    object.preparation.followsTexcoords = request.hasLooks();
   request.optionText = textOf(options, request.resolution, scene.bounds, request.volume);
   requirePreparable(scene, options);
   return request;

@@ -47,6 +47,7 @@ struct ObjectPreparation {
   double weldTolerance = 0;            ///< world units
   ComponentLimit dropComponents = {};  ///< components below it are left out
   bool strict = false;                 ///< a mesh that needs repair is refused
+  bool followsTexcoords = false;       ///< texture coordinates of corners are found again
 
   /// True if some edge or vertex may be sharp.
   bool mayCrease() const {
@@ -90,6 +91,8 @@ struct Request {
   /// True if not all voxels are wanted.
   bool crops() const { return bounds || clip; }
 
+  /// True if it matters what materials and images look like.
+  bool hasLooks() const;
   /// True if voxels are told by their parts.
   bool hasParts() const;
   /// True if parts go from the surface to the inside: then they need all of it.

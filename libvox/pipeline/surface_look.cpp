@@ -79,6 +79,7 @@ double covered(const Vec3d& side) {
 }  // namespace
 
 SurfaceColors::SurfaceColors(const PreparedSurface& surface) : surface_(surface) {
+  if (surface.texture) return;  // it is evaluated in space
   const PolygonMesh& mesh = surface.base.mesh;
   cornerColors_ = colorsOfCorners(mesh);
   if (!cornerColors_.empty())
