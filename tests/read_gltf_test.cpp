@@ -446,6 +446,23 @@ TEST_CASE("a glTF file that places a mesh too often is refused before memory is 
   CHECK_THAT(refusalOf(content), Contains("more than 2^32 - 2 vertices or corners"));
 }
 
+TEST_CASE("empty sets of triangles in many glTF nodes cost nothing", "[io][gltf]") {
+  GltfBuffer buffer;
+  buffer.add(kFloat, 3, kSquare);
+  buffer.addAccessor(R"("bufferView":0,"componentType":5126,"count":0,"type":"VEC3")");
+  std::string nodes = "{\"mesh\":1}";
+  std::string primitives = R"({"attributes":{"POSITION":1}})";
+  for (int i = 0; i < 30000; ++i) {
+    nodes += ",{\"mesh\":0}";
+    primitives += R"(,{"attributes":{"POSITION":1}})";
+  }
+  const PolygonMesh mesh =
+      parse(buffer.binary("\"nodes\":[" + nodes + "],\"meshes\":[{\"primitives\":[" + primitives +
+                          R"(]},{"primitives":[{"attributes":{"POSITION":0},"mode":6}]}])"));
+  CHECK(mesh.pointCount() == 4);
+  CHECK(mesh.attributes.objects.names.size() == 1);
+}
+
 TEST_CASE("deeply nested JSON is no danger", "[io][gltf]") {
   const std::string deep = std::string(300000, '[') + std::string(300000, ']');
   CHECK_THAT(refusalOf("{\"extras\":" + deep + "}"), Contains("lacks asset"));

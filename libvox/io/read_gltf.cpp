@@ -34,7 +34,7 @@ constexpr std::uint64_t kUnsignedByteType = 5121, kUnsignedShortType = 5123,
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-/// A set of triangles of a mesh.
+/// A set of triangles of a mesh; at least one.
 struct Primitive {
   GltfValue place;
   std::uint64_t mode;
@@ -48,6 +48,10 @@ struct Primitive {
     const std::uint64_t corners = cornerCount();
     if (mode == kTriangles) return corners / 3;
     return corners < 3 ? 0 : corners - 2;
+  }
+  /// True if corners are left over that are no triangle.
+  bool isCut() const {
+    return mode == kTriangles ? cornerCount() % 3 > 0 : cornerCount() == 1 || cornerCount() == 2;
   }
 };
 
@@ -230,7 +234,9 @@ const std::vector<Primitive>& GltfReader::primitivesOf(const Instance& instance)
       continue;
     }
     if (place.find("targets")) report_.add(Oddity::kPose, 0);
-    known->second.push_back(primitive(place));
+    Primitive read = primitive(place);
+    if (read.isCut()) report_.add(Oddity::kShortFace, 0);
+    if (read.triangleCount() > 0) known->second.push_back(std::move(read));
   }
   return known->second;
 }
@@ -364,8 +370,6 @@ void GltfReader::addTriangles(const Primitive& primitive, Index firstPoint, bool
   }
   if (!texcoords.empty()) texcoords.resize(mesh_.faceVertices.size(), none);
   materialOfFaces_.resize(mesh_.faceCount(), primitive.material.value_or(kNone));
-  const bool isCut = primitive.mode == kTriangles ? primitive.cornerCount() % 3 > 0 : count == 0;
-  if (isCut) report_.add(Oddity::kShortFace, 0);
 }
 
 Vec2f GltfReader::texcoordAt(const GltfNumbers& texcoords, Index vertex) {
