@@ -9,6 +9,7 @@
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/refine.h"
 #include "tests/conversion.h"
+#include "tests/gltf_files.h"
 #include "tests/shapes.h"
 #include "tests/spline_torus.h"
 #include "tests/temporary_folder.h"
@@ -368,4 +369,119 @@ TEST_CASE("with alpha cut, voxels whose closest point is transparent are left ou
   options.volume.fill = Fill::kSurface;
   options.volume.edge = Edge::kSoft;
   CHECK_THROWS_WITH(convert(scene, options), Contains("--edge hard"));
+}
+
+TEST_CASE("PLY has texture coordinates and images as MeshLab writes them", "[io][image]") {
+  const std::string header =
+      "ply\nformat ascii 1.0\ncomment TextureFile a skin.png\ncomment TextureFile b.png\n"
+      "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 3\nproperty list uchar int vertex_indices\n"
+      "property list uchar float texcoord\nproperty int texnumber\nend_header\n"
+      "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+  const PolygonMesh mesh = parseMesh("f/a.ply", header +
+                                                    "4 0 1 2 3 8 0 0.5 1 2 3 4 5 6 1\n"
+                                                    "3 0 1 2 0 -1\n3 2 1 0 6 9 8 7 6 5 4 0\n");
+  const MeshAttributes& attributes = mesh.attributes;
+  REQUIRE(attributes.texcoords.size() == 10);
+  CHECK(attributes.texcoords[0] == Vec2f(0, 0.5F));
+  CHECK(attributes.texcoords[3] == Vec2f(5, 6));
+  CHECK(std::isnan(attributes.texcoords[4][0]));
+  CHECK(attributes.texcoords[9] == Vec2f(5, 4));
+  CHECK(attributes.materials.names == std::vector<std::string>{"a skin.png", "b.png"});
+  CHECK(attributes.materials.ofFaces == std::vector<Index>{1, kNone, 0});
+  REQUIRE(attributes.looks.size() == 2);
+  CHECK(attributes.looks[0].image->file == "f/a skin.png");
+  CHECK_FALSE(attributes.looks[0].multiplies);
+  CHECK_THROWS_WITH(parseMesh("a.ply", header + "3 0 1 2 4 0 1 2 3 0\n"),
+                    Contains("a.ply:18: face 0: texcoord has 4 numbers; expected 2 for each of the "
+                             "3 corners"));
+  CHECK_THROWS_WITH(parseMesh("a.ply", header + "3 0 1 2 6 0 1 2 3 4 5 0.5\n"),
+                    Contains("whole number"));
+}
+
+TEST_CASE("PLY has texture coordinates of points, by every name", "[io][image]") {
+  for (const auto& [u, v] : {std::pair{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}) {
+    const PolygonMesh mesh =
+        parseMesh("a.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                  "property float z\nproperty float " +
+                      std::string(u) + "\nproperty double " + v +
+                      "\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                      "0 0 0 0.5 1\n1 0 0 0.25 2\n0 1 0 nan 3\n3 1 0 2\n");
+    REQUIRE(mesh.attributes.texcoords.size() == 3);
+    CHECK(mesh.attributes.texcoords[0] == Vec2f(0.25F, 2));
+    CHECK(mesh.attributes.texcoords[1] == Vec2f(0.5F, 1));
+    CHECK_FALSE(mesh.attributes.texcoords[2].allFinite());
+    CHECK(mesh.attributes.looks.empty());
+  }
+}
+
+TEST_CASE("a textured GLB, PLY and OBJ with MTL of one model have the same colours",
+          "[io][image][gltf]") {
+  // A cube; each side is a quarter of the image, turned differently: two triangles.
+  const PolygonMesh cube = test::cube();
+  std::vector<float> points, texcoords, upTexcoords;
+  std::string obj = "mtllib a.mtl\nusemtl skin\n", ply, faces, coordinates;
+  std::size_t vertices = 0;
+  for (Index f = 0; f < cube.faceCount(); ++f) {
+    for (const std::size_t i : {0U, 1U, 2U, 0U, 2U, 3U}) {
+      const Vec3d point = cube.points[cube.face(f)[i]];
+      const Vec2f corner(static_cast<float>((i + f) / 2 % 2),
+                         static_cast<float>((i + f + 1) / 2 % 2));
+      const Vec2f uv = 0.5F * corner + Vec2f(f % 2 == 0 ? 0 : 0.5F, f % 3 == 0 ? 0 : 0.25F);
+      std::ostringstream v, t;
+      v << point[0] << ' ' << point[1] << ' ' << point[2] << '\n';
+      t << uv[0] << ' ' << uv[1];
+      obj += "v " + v.str() + "vt " + t.str() + "\n";
+      ply += v.str();
+      coordinates += " " + t.str();
+      for (const double x : point) points.push_back(static_cast<float>(x));
+      texcoords.insert(texcoords.end(), {uv[0], 1 - uv[1]});
+      if (++vertices % 3 != 0) continue;
+      obj += "f";
+      faces += "3";
+      for (std::size_t k = vertices - 3; k < vertices; ++k) {
+        obj += " " + std::to_string(k + 1) + "/" + std::to_string(k + 1);
+        faces += " " + std::to_string(k);
+      }
+      obj += "\n";
+      faces += " 6" + coordinates + "\n";
+      coordinates.clear();
+    }
+  }
+  const std::string png = pngOf(placeImage(32));
+  test::GltfBuffer buffer;
+  buffer.add(5126, 3, points).add(5126, 2, texcoords).addBytes(png);
+  const std::string glb = buffer.binary(
+      test::oneMesh(R"("attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0)") +
+      R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+      R"("textures":[{"source":0}],"images":[{"bufferView":2,"mimeType":"image/png"}])");
+  const test::TemporaryFolder folder;
+  folder.write("skin.png", png);
+  folder.write("a.mtl", "newmtl skin\nmap_Kd skin.png\n");
+  const std::string count = std::to_string(vertices);
+  const std::string plyFile =
+      "ply\nformat ascii 1.0\ncomment TextureFile skin.png\nelement vertex " + count +
+      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+      std::to_string(vertices / 3) +
+      "\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\nend_header\n" +
+      ply + faces;
+  const auto colors = [&](const std::string& name, const std::string& content) {
+    Conversion conversion = convert(readScene(folder.write(name, content)), colorsAt(32));
+    for (const std::string& warning : conversion.report.warnings) UNSCOPED_INFO(warning);
+    CHECK(conversion.report.warnings == std::vector<std::string>{"a: welded 28 vertices"});
+    return test::colorOf(conversion).deepCopy();
+  };
+  const auto expected = colors("a.obj", obj);
+  CHECK(expected->activeVoxelCount() > 1000);
+  for (const auto& other : {colors("a.glb", glb), colors("a.ply", plyFile)}) {
+    CHECK(other->activeVoxelCount() == expected->activeVoxelCount());
+    double most = 0;
+    for (auto voxel = expected->cbeginValueOn(); voxel; ++voxel) {
+      REQUIRE(other->tree().isValueOn(voxel.getCoord()));
+      const openvdb::Vec3s apart = other->tree().getValue(voxel.getCoord()) - *voxel;
+      most = std::max(most, static_cast<double>(apart.length()));
+    }
+    CHECK(most < 1e-5);
+  }
 }

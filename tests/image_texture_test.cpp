@@ -171,3 +171,18 @@ TEST_CASE("the mean over the whole image is the mean of its texels", "[volume][i
   sum[3] /= 256;
   requireNear(ImageTexture(image).mean(16, [](double a, double b) { return Vec2d(a, b); }), sum);
 }
+
+TEST_CASE("the alpha of an opaque image does not count", "[volume][image]") {
+  const auto image = randomImage(5, 4, false);
+  auto covered = std::make_shared<Image>(*image);
+  for (Pixel& pixel : covered->pixels) pixel[3] = 255;
+  ImageMap opaque;
+  opaque.opaque = true;
+  const ImageTexture texture(image, opaque);
+  const ImageTexture expected(covered);
+  for (double u = 0; u < 1; u += 0.07)
+    for (double v = 0; v < 1; v += 0.07) {
+      CHECK(texture.at({u, v}) == expected.at({u, v}));
+      CHECK(texture.at({u, v})[3] == Approx(1));
+    }
+}

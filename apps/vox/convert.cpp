@@ -195,7 +195,8 @@ Action addConvert(CLI::App& app) {
   const auto options = std::make_shared<ConvertArguments>();
   command
       .add("INPUT", options->inputs,
-           "Scene (.toml) or mesh (.obj .ply .off .stl .om). Several inputs, or a pattern "
+           "Scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb). Several inputs, or a "
+           "pattern "
            "such as mesh.####.obj, become a sequence out.####.vdb with one voxel size")
       .required()
       .type("");

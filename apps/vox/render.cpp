@@ -259,7 +259,7 @@ Action addRender(CLI::App& app) {
   const auto options = std::make_shared<RenderArguments>();
   command
       .add("INPUT", options->input,
-           "OpenVDB file (.vdb), scene (.toml) or mesh (.obj .ply .off .stl .om)")
+           "OpenVDB file (.vdb), scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb)")
       .required();
   command.add("-o,--output", options->output, "PNG file to write; - for stdout")
       .required()

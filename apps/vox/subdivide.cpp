@@ -98,7 +98,7 @@ int runSubdivide(const SubdivideArguments& options) {
 Action addSubdivide(CLI::App& app) {
   const Command command(app, "subdivide", "Write the refined polygon mesh itself");
   const auto options = std::make_shared<SubdivideArguments>();
-  command.add("INPUT", options->input, "Scene (.toml) or mesh (.obj .ply .off .stl .om)")
+  command.add("INPUT", options->input, "Scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb)")
       .required();
   command
       .add("-o,--output", options->output,

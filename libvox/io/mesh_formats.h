@@ -34,5 +34,6 @@ PolygonMesh parsePly(std::string_view data, ReadLog& log);
 PolygonMesh parseOff(std::string_view text, ReadLog& log);
 PolygonMesh parseStl(std::string_view data, ReadLog& log);
 PolygonMesh parseOm(std::string_view data, ReadLog& log);
+PolygonMesh parseGltf(std::string_view data, ReadLog& log);  ///< reads the files of its buffers
 
 }  // namespace vox

@@ -40,14 +40,14 @@ constexpr std::array<TypeName, 16> kTypeNames = {{
     {"float64", PlyType::kFloat64},
 }};
 
-/// Names of colours. Of several in one element the lowest rank counts.
-struct ColorName {
+/// Names of a role. Of several in one element the lowest rank counts.
+struct RoleName {
   std::string_view name;
   PlyRole role;
   int rank;
 };
 
-constexpr std::array<ColorName, 12> kColorNames = {{
+constexpr std::array<RoleName, 12> kColorNames = {{
     {"red", PlyRole::kRed, 0},
     {"green", PlyRole::kGreen, 0},
     {"blue", PlyRole::kBlue, 0},
@@ -60,6 +60,15 @@ constexpr std::array<ColorName, 12> kColorNames = {{
     {"diffuse_r", PlyRole::kRed, 3},
     {"diffuse_g", PlyRole::kGreen, 3},
     {"diffuse_b", PlyRole::kBlue, 3},
+}};
+
+constexpr std::array<RoleName, 6> kTexcoordNames = {{
+    {"s", PlyRole::kU, 0},
+    {"t", PlyRole::kV, 0},
+    {"u", PlyRole::kU, 1},
+    {"v", PlyRole::kV, 1},
+    {"texture_u", PlyRole::kU, 2},
+    {"texture_v", PlyRole::kV, 2},
 }};
 
 std::string lowerCase(std::string text) {
@@ -87,9 +96,10 @@ class HeaderParser {
   void readFormat();
   void readElement();
   void readProperty();
+  void readComment();
   void setRole(PlyProperty& property) const;
   void addProperty(PlyProperty property);
-  void noteColor(PlyElement& element) const;
+  void noteRoles(PlyElement& element) const;
   PlyType typeNamed(std::string_view name) const;
   std::string_view word(const char* what);
   void endLine();
@@ -112,13 +122,24 @@ bool HeaderParser::readLine() {
   } else if (keyword == "property") {
     readProperty();
   } else if (keyword == "comment" || keyword == "obj_info") {
-    if (!scan_.nextLine()) scan_.fail("truncated: ends before end_header");
+    readComment();
     return true;
   } else if (!keyword.empty()) {
     scan_.fail("unknown header line " + quote(keyword));
   }
   endLine();
   return true;
+}
+
+void HeaderParser::readComment() {
+  constexpr std::string_view kBlanks = " \t\r";
+  if (scan_.token() == "TextureFile") {
+    std::string_view name = scan_.restOfLine();
+    name.remove_prefix(std::min(name.find_first_not_of(kBlanks), name.size()));
+    name = name.substr(0, name.find_last_not_of(kBlanks) + 1);
+    if (!name.empty()) header_.textureFiles.emplace_back(name);
+  }
+  if (!scan_.nextLine()) scan_.fail("truncated: ends before end_header");
 }
 
 void HeaderParser::readFormat() {
@@ -167,7 +188,7 @@ void HeaderParser::readProperty() {
   property.name = word("a property name");
   setRole(property);
   addProperty(std::move(property));
-  noteColor(header_.elements.back());
+  noteRoles(header_.elements.back());
 }
 
 // Of several properties of one role the one with the most usual name keeps it.
@@ -181,7 +202,7 @@ void HeaderParser::addProperty(PlyProperty property) {
   properties.push_back(std::move(property));
 }
 
-void HeaderParser::noteColor(PlyElement& element) const {
+void HeaderParser::noteRoles(PlyElement& element) const {
   int channels = 0;
   bool isUsual = true;
   for (const PlyProperty& property : element.properties) {
@@ -191,6 +212,11 @@ void HeaderParser::noteColor(PlyElement& element) const {
     isUsual = isUsual && property.nameRank == 0 &&
               (largest == 0 || largest == largestOf(PlyType::kUint8));
   }
+  const auto has = [&](PlyRole role) {
+    return std::any_of(element.properties.begin(), element.properties.end(),
+                       [&](const PlyProperty& property) { return property.role == role; });
+  };
+  element.hasTexcoord = has(PlyRole::kU) && has(PlyRole::kV);
   element.hasColor = channels == 3;
   if (element.hasColor && !isUsual && element.colorLine == 0) element.colorLine = scan_.line();
 }
@@ -199,18 +225,25 @@ void HeaderParser::setRole(PlyProperty& property) const {
   const PlyElement& element = header_.elements.back();
   const std::string& name = property.name;
   if (property.isList) {
+    if (element.isFace && name == "texcoord") property.role = PlyRole::kTexcoords;
     if (name != "vertex_indices" && name != "vertex_index") return;
     if (element.name == "face") property.role = PlyRole::kFace;
     if (element.name == "tristrips") property.role = PlyRole::kStrips;
     return;
   }
   if (!element.isVertex && !element.isFace) return;
-  for (const ColorName& color : kColorNames)
+  for (const RoleName& color : kColorNames)
     if (color.name == lowerCase(name)) {
       property.role = color.role;
       property.nameRank = color.rank;
     }
+  if (element.isFace && name == "texnumber") property.role = PlyRole::kTexnumber;
   if (!element.isVertex) return;
+  for (const RoleName& texcoord : kTexcoordNames)
+    if (texcoord.name == name) {
+      property.role = texcoord.role;
+      property.nameRank = texcoord.rank;
+    }
   if (name == "x") property.role = PlyRole::kX;
   if (name == "y") property.role = PlyRole::kY;
   if (name == "z") property.role = PlyRole::kZ;

@@ -19,7 +19,21 @@ std::size_t sizeOf(PlyType type);
 double largestOf(PlyType type);
 
 /// Meaning of a property for the reader.
-enum class PlyRole { kIgnored, kX, kY, kZ, kRed, kGreen, kBlue, kFace, kStrips };
+enum class PlyRole {
+  kIgnored,
+  kX,
+  kY,
+  kZ,
+  kRed,
+  kGreen,
+  kBlue,
+  kFace,
+  kStrips,
+  kTexcoords,
+  kTexnumber,
+  kU,
+  kV
+};
 
 struct PlyProperty {
   std::string name;
@@ -27,7 +41,7 @@ struct PlyProperty {
   bool isList = false;
   PlyType countType = PlyType::kUint8;
   PlyRole role = PlyRole::kIgnored;
-  int nameRank = 0;  ///< of a colour; 0: the usual name
+  int nameRank = 0;  ///< of a colour or texture coordinate; 0: the usual name
 };
 
 struct PlyElement {
@@ -36,6 +50,7 @@ struct PlyElement {
   bool isVertex = false;
   bool isFace = false;
   bool hasColor = false;      ///< has red, green and blue
+  bool hasTexcoord = false;   ///< of vertices: has u and v
   std::size_t colorLine = 0;  ///< of the header, if their names or types are unusual
   std::vector<PlyProperty> properties;
 };
@@ -44,6 +59,7 @@ struct PlyHeader {
   std::optional<std::endian> binaryOrder;  ///< of a binary body; nothing: text
   std::vector<PlyElement> elements;
   std::uint64_t vertexCount = 0;
+  std::vector<std::string> textureFiles;  ///< as comments name them: "comment TextureFile a.png"
 };
 
 /// Reads a header up to and including the line end_header, and checks that it describes positions

@@ -12,7 +12,6 @@
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace vox {
@@ -37,7 +36,7 @@ std::vector<fs::path> filesOf(const fs::path& folder, const std::string& line) {
 }  // namespace
 
 void readMaterials(const fs::path& meshFile, PolygonMesh& mesh, ReadReport& report) {
-  const std::vector<std::string> lines = std::exchange(report.materialFiles, {});
+  const std::vector<std::string>& lines = report.materialFiles;
   const std::vector<std::string>& names = mesh.attributes.materials.names;
   if (lines.empty() || names.empty()) return;
   std::unordered_map<std::string, Material> known;
@@ -45,7 +44,7 @@ void readMaterials(const fs::path& meshFile, PolygonMesh& mesh, ReadReport& repo
     for (const fs::path& file : filesOf(meshFile.parent_path(), line)) {
       try {
         for (Material& material : readMtl(file)) known.try_emplace(material.name, material);
-        report.materialFiles.push_back(file.string());
+        report.companions.push_back(file.string());
       } catch (const InputError& error) {
         report.materialProblems.emplace_back(error.what());
       }

@@ -29,12 +29,14 @@ struct Format {
   Parser parse;
 };
 
-constexpr std::array<Format, 5> kFormats = {{
+constexpr std::array<Format, 7> kFormats = {{
     {".obj", parseObj},
     {".ply", parsePly},
     {".off", parseOff},
     {".stl", parseStl},
     {".om", parseOm},
+    {".gltf", parseGltf},
+    {".glb", parseGltf},
 }};
 
 // The parser for the extension of a file name; null if it is unknown.
@@ -126,7 +128,7 @@ PolygonMesh readMesh(const fs::path& file) {
 void requireMeshExtension(const fs::path& file) {
   if (parserFor(file) == nullptr)
     throw InputError(file.string() + ": unknown extension " + quote(file.extension().string()) +
-                     "; a mesh is .obj, .ply, .off, .stl or .om");
+                     "; a mesh is .obj, .ply, .off, .stl, .om, .gltf or .glb");
 }
 
 PolygonMesh parseMesh(const fs::path& file, std::string_view content, ReadReport& report) {

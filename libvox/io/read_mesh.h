@@ -13,7 +13,7 @@ inline constexpr double kMaxCoordinate = 1e15;
 
 /// Reads a polygon mesh; the format follows from the extension (case does not matter):
 /// .obj .ply (ascii, binary little and big endian) .off (OFF, COFF, NOFF, STOFF) .stl (ascii,
-/// binary; equal positions welded) .om (OpenMesh).
+/// binary; equal positions welded) .om (OpenMesh) .gltf .glb (glTF 2.0).
 ///
 /// Polygons are not changed: they may have any size and repeated corners, and need not form a
 /// manifold. Positions are doubles. Faces of fewer than 3 corners are dropped; for this and all
@@ -21,7 +21,8 @@ inline constexpr double kMaxCoordinate = 1e15;
 /// an error only if a face uses it. The result has at least one face; each face has at least 3
 /// corners; every index is in range; every coordinate is finite and at most kMaxCoordinate in size.
 ///
-/// The materials of an OBJ file are read from the files that it names (readMaterials).
+/// The materials of an OBJ file are read from the files that it names (readMaterials). Images are
+/// not read. The buffers of a glTF file are.
 ///
 /// @throws InputError  the file is missing, a directory, unreadable, of unknown extension, or its
 ///   text is malformed. The message starts with "FILE:LINE: " (text) or "FILE: " (binary).
@@ -29,7 +30,8 @@ inline constexpr double kMaxCoordinate = 1e15;
 PolygonMesh readMesh(const std::filesystem::path& file, ReadReport& report);
 PolygonMesh readMesh(const std::filesystem::path& file);
 
-/// Reads a polygon mesh from the content of a file, without its material files.
+/// Reads a polygon mesh from the content of a file, without its material files, but with the
+/// buffers of glTF.
 /// @param file  gives the format by its extension, and is named in messages
 /// @throws InputError  as readMesh
 PolygonMesh parseMesh(const std::filesystem::path& file, std::string_view content,

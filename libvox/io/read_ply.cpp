@@ -1,22 +1,31 @@
 // Polygon File Format (Stanford), text and binary.
 //
 // Source: G. Turk, "The PLY Polygon File Format", 1994; tristrips as in the Stanford scanning
-// repository: one list of vertices, -1 starts a new strip.
+// repository: one list of vertices, -1 starts a new strip; texture coordinates as MeshLab writes
+// them: two numbers for each corner of a face, texnumber counts the comments TextureFile from 0.
 
 #include "libvox/core/error.h"
 #include "libvox/io/byte_order.h"
+#include "libvox/io/companion_file.h"
 #include "libvox/io/file_colors.h"
 #include "libvox/io/mesh_formats.h"
 #include "libvox/io/ply_header.h"
 #include "libvox/io/read_mesh.h"
 #include "libvox/io/text_scanner.h"
+#include "libvox/io/unique_names.h"
 
 #include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace vox {
 
 namespace {
+
+const Vec2f kNoTexcoord = Vec2f::Constant(std::numeric_limits<float>::quiet_NaN());
 
 // The element that is being read, for messages.
 struct Place {
@@ -128,6 +137,8 @@ class BodyParser {
     }
     mesh_.pointColors = pointColors_.takeLinear(mesh_.pointCount(), log_.report);
     mesh_.faceColors = faceColors_.takeLinear(mesh_.faceCount(), log_.report);
+    takeTexcoords();
+    takeTextures();
     return std::move(mesh_);
   }
 
@@ -140,6 +151,11 @@ class BodyParser {
   Index pointOf(std::int64_t index);
   void readFace(const PlyProperty& list);
   void readStrips(const PlyProperty& list);
+  void readTexcoords(const PlyProperty& list);
+  void setTexcoords();
+  Vec2f finiteTexcoord(const Vec2d& texcoord);
+  void takeTexcoords();
+  void takeTextures();
 
   Numbers numbers_;
   const PlyHeader& header_;
@@ -149,6 +165,10 @@ class BodyParser {
   bool keepsType_ = true;  // colours of the element have one type, which gives their range
   FileColors pointColors_;
   FileColors faceColors_;
+  std::vector<double> faceTexcoords_;     // of the face that is being read
+  std::vector<Vec2f> cornerTexcoords_;    // of corners so far, or fewer: the others have none
+  std::vector<Vec2f> pointTexcoords_;     // of all points, or empty
+  std::vector<std::int64_t> texnumbers_;  // of faces so far, or fewer: the others have 0
 };
 
 template <typename Numbers>
@@ -180,6 +200,9 @@ void BodyParser<Numbers>::readElement(const PlyElement& element) {
   const Index facesBefore = mesh_.faceCount();
   Vec3d point = Vec3d::Zero();
   Vec3d color = Vec3d::Zero();
+  Vec2d texcoord = Vec2d::Zero();
+  std::optional<std::int64_t> texnumber;
+  faceTexcoords_.clear();
   for (const PlyProperty& property : element.properties) {
     switch (property.role) {
       case PlyRole::kIgnored:
@@ -190,6 +213,18 @@ void BodyParser<Numbers>::readElement(const PlyElement& element) {
         break;
       case PlyRole::kStrips:
         readStrips(property);
+        break;
+      case PlyRole::kTexcoords:
+        readTexcoords(property);
+        break;
+      case PlyRole::kTexnumber:
+        texnumber = readInteger(property.type);
+        break;
+      case PlyRole::kU:
+        texcoord[0] = numbers_.nextCoordinate(property.type);
+        break;
+      case PlyRole::kV:
+        texcoord[1] = numbers_.nextCoordinate(property.type);
         break;
       case PlyRole::kRed:
       case PlyRole::kGreen:
@@ -212,9 +247,74 @@ void BodyParser<Numbers>::readElement(const PlyElement& element) {
     pointColors_.set(mesh_.pointCount(), color, numbers_.line());
   if (element.isVertex && !point.allFinite() && numbers_.line() > 0)
     log_.undefined.push_back({mesh_.pointCount(), numbers_.line()});
+  if (element.hasTexcoord) pointTexcoords_.push_back(finiteTexcoord(texcoord));
   if (element.isVertex) mesh_.points.push_back(point);
   if (element.hasColor && element.isFace && mesh_.faceCount() > facesBefore)
     faceColors_.set(mesh_.faceCount() - 1, color, numbers_.line());
+  if (!element.isFace || mesh_.faceCount() == facesBefore) return;
+  if (!faceTexcoords_.empty()) setTexcoords();
+  if (texnumber) {
+    texnumbers_.resize(facesBefore, 0);
+    texnumbers_.push_back(*texnumber);
+  }
+}
+
+template <typename Numbers>
+void BodyParser<Numbers>::readTexcoords(const PlyProperty& list) {
+  for (std::uint64_t rest = readCount(list.countType); rest > 0; --rest)
+    faceTexcoords_.push_back(numbers_.nextCoordinate(list.type));
+}
+
+/// Gives the corners of the last face their texture coordinates.
+template <typename Numbers>
+void BodyParser<Numbers>::setTexcoords() {
+  const std::size_t corners = mesh_.faceSize(mesh_.faceCount() - 1);
+  if (faceTexcoords_.size() != 2 * corners)
+    numbers_.fail(place_.name() + ": texcoord has " + std::to_string(faceTexcoords_.size()) +
+                  " numbers; expected 2 for each of the " + std::to_string(corners) + " corners");
+  cornerTexcoords_.resize(mesh_.faceVertices.size() - corners, kNoTexcoord);
+  for (std::size_t i = 0; i < corners; ++i)
+    cornerTexcoords_.push_back(finiteTexcoord({faceTexcoords_[2 * i], faceTexcoords_[2 * i + 1]}));
+}
+
+/// Notes a texture coordinate that is not finite.
+template <typename Numbers>
+Vec2f BodyParser<Numbers>::finiteTexcoord(const Vec2d& texcoord) {
+  if (!texcoord.allFinite())
+    log_.report.add(Oddity::kUndefinedTexcoord, numbers_.line(), place_.index);
+  return texcoord.cast<float>();
+}
+
+/// Corners without texture coordinates of their own have those of their points.
+template <typename Numbers>
+void BodyParser<Numbers>::takeTexcoords() {
+  if (cornerTexcoords_.empty() && pointTexcoords_.empty()) return;
+  cornerTexcoords_.resize(mesh_.faceVertices.size(), kNoTexcoord);
+  for (std::size_t c = 0; c < cornerTexcoords_.size(); ++c)
+    if (!pointTexcoords_.empty() && std::isnan(cornerTexcoords_[c][0]))
+      cornerTexcoords_[c] = pointTexcoords_[mesh_.faceVertices[c]];
+  mesh_.attributes.texcoords = std::move(cornerTexcoords_);
+}
+
+/// The images that comments name become materials.
+template <typename Numbers>
+void BodyParser<Numbers>::takeTextures() {
+  if (header_.textureFiles.empty()) return;
+  const std::filesystem::path folder = std::filesystem::path(log_.report.file).parent_path();
+  MeshAttributes& attributes = mesh_.attributes;
+  UniqueNames names;
+  for (const std::string& file : header_.textureFiles) {
+    Material& look = attributes.looks.emplace_back();
+    look.name = names.given(file);
+    look.image.emplace();
+    look.image->file = foundCompanion(companionPath(file, folder), folder).string();
+    attributes.materials.names.push_back(look.name);
+  }
+  const auto count = static_cast<std::int64_t>(header_.textureFiles.size());
+  texnumbers_.resize(mesh_.faceCount(), 0);
+  for (const std::int64_t number : texnumbers_)
+    attributes.materials.ofFaces.push_back(
+        number >= 0 && number < count ? static_cast<Index>(number) : kNone);
 }
 
 template <typename Numbers>

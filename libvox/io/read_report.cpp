@@ -22,6 +22,8 @@ constexpr std::array<Words, kOddityCount> kWords = {{
     {"ignored", "byte", "bytes", " after the last face"},
     {"clamped", "colour value", "colour values", " above full brightness"},
     {"ignored", "line", "lines", " of #MRGB colours that are not 8 hexadecimal digits each"},
+    {"ignored", "set", "sets", " of points or lines"},
+    {"ignored", "skin or set of morph targets", "skins or sets of morph targets", ""},
     {"ignored", "texture coordinate", "texture coordinates",
      " that are not finite or do not exist"},
     {nullptr, "colour", "colours", " that only some programs write in this way"},

@@ -17,6 +17,8 @@ enum class Oddity {
   kTrailingBytes,      ///< content after the last element, ignored
   kBrightColor,        ///< a colour value above full brightness, clamped
   kDamagedColors,      ///< a line of colours that cannot be read, ignored
+  kNoSurface,          ///< glTF points or lines, ignored
+  kPose,               ///< a glTF skin or morph target; the mesh is read as it is without
   kUndefinedTexcoord,  ///< a texture coordinate at NaN or infinity, or one that does not exist
   // Understood without loss:
   kForeignColor,   ///< a colour by a name, of a type or at a place that only some programs use
@@ -25,7 +27,7 @@ enum class Oddity {
   kGluedComment,   ///< a comment right after an index or number: 7#
   kBackslashName,  ///< a name that ends with a backslash, which is no continuation
 };
-inline constexpr std::size_t kOddityCount = 13;
+inline constexpr std::size_t kOddityCount = 15;
 
 /// The oddities of a mesh file, by kind.
 struct ReadReport {
@@ -37,8 +39,8 @@ struct ReadReport {
     std::uint64_t element = kNoElement;  ///< number of the first, from 0
   };
   std::string file;
-  /// Material files: as the file names them, then the paths of those that were read.
-  std::vector<std::string> materialFiles{};
+  std::vector<std::string> materialFiles{};     ///< as the file names them
+  std::vector<std::string> companions{};        ///< paths of the other files that were read
   std::vector<std::string> materialProblems{};  ///< what is wrong with them, one line each
   std::array<Count, kOddityCount> counts{};
 

@@ -147,8 +147,8 @@ Scene readScene(const fs::path& file, std::optional<double> scale) {
   SceneObject& object = scene.objects.emplace_back();
   object.name = file.stem().string();
   object.mesh = readMeshInto(hash, file, object.reading);
-  const std::vector<std::string>& materials = object.reading.materialFiles;
-  scene.files.insert(scene.files.end(), materials.begin(), materials.end());
+  const std::vector<std::string>& others = object.reading.companions;
+  scene.files.insert(scene.files.end(), others.begin(), others.end());
   scaleAll(scene, scale);
   scene.inputHash = hash.hex();
   return scene;

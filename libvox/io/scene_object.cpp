@@ -107,8 +107,7 @@ PolygonMesh readObjectMesh(SceneText& text, const toml::table& table, Scene& sce
     scene.files.push_back(file);
     try {
       PolygonMesh read = readMeshInto(text.hash, file, report);
-      scene.files.insert(scene.files.end(), report.materialFiles.begin(),
-                         report.materialFiles.end());
+      scene.files.insert(scene.files.end(), report.companions.begin(), report.companions.end());
       return read;
     } catch (const InputError& error) {
       text.fail(*mesh, std::string("mesh: ") + error.what());
@@ -231,7 +230,7 @@ PolygonMesh readMeshInto(ContentHash& hash, const fs::path& file, ReadReport& re
   hash.addFile(content);
   PolygonMesh mesh = parseMesh(file, content, report);
   readMaterials(file, mesh, report);
-  for (const std::string& material : report.materialFiles) hash.addFile(contentsOf(material));
+  for (const std::string& other : report.companions) hash.addFile(contentsOf(other));
   return mesh;
 }
 

@@ -8,7 +8,7 @@
 
 namespace vox {
 
-/// Reads a mesh and its material files, and adds their contents to a hash.
+/// Reads a mesh and the files that belong to it, and adds their contents to a hash.
 /// @throws InputError  as readMesh
 PolygonMesh readMeshInto(ContentHash& hash, const std::filesystem::path& file, ReadReport& report);
 

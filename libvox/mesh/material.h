@@ -17,7 +17,8 @@ struct ImageMap {
   std::shared_ptr<const std::string> content = {};  ///< of an image inside of a mesh file
   Vec2d scale = Vec2d::Ones();  ///< the point of the image is uv * scale + offset
   Vec2d offset = Vec2d::Zero();
-  bool clamp = false;  ///< outside of the unit square: its edge; false: it repeats
+  bool opaque = false;  ///< its alpha is not used
+  bool clamp = false;   ///< outside of the unit square: its edge; false: it repeats
 };
 
 /// What faces look like.

@@ -61,7 +61,7 @@ void ImageTexture::addTexel(int x, int y, double weight, Sum& sum) const {
   const Pixel& pixel = image_->at(x, y);
   const Vec3f color(light[pixel[0]], light[pixel[1]], light[pixel[2]]);
   const auto part = static_cast<float>(weight);
-  const float coverage = part * (static_cast<float>(pixel[3]) / 255);
+  const float coverage = map_.opaque ? part : part * (static_cast<float>(pixel[3]) / 255);
   sum.covered += coverage * color;
   sum.plain += part * color;
   sum.coverage += coverage;
