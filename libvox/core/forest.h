@@ -4,31 +4,49 @@
 #include "libvox/core/types.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace vox {
 
 /// Disjoint sets of the numbers 0 .. count - 1; at first each number is a set of its own. The root
-/// of a set is its lowest element. Not thread-safe.
+/// of a set is its lowest element. Any threads may call any functions at the same time; the sets
+/// in the end do not depend on the order of the calls. (R. J. Anderson, H. Woll, Wait-free parallel
+/// algorithms for the union-find problem, 1991.)
 class Forest {
  public:
   explicit Forest(std::size_t count) : parent_(numbered(count)) {}
 
   /// Root of the set of x. Halves paths on the way.
   Index find(Index x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+    for (Index up = parent(x).load(kRelaxed); up != x;) {
+      const Index above = parent(up).load(kRelaxed);
+      if (above == up) return up;
+      parent(x).store(above, kRelaxed);  // an ancestor stays an ancestor
+      x = above;
+      up = parent(x).load(kRelaxed);
+    }
     return x;
   }
 
   /// Joins the sets of a and b.
   void unite(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
+    for (;;) {
+      a = find(a);
+      b = find(b);
+      if (a == b) return;
+      if (a < b) std::swap(a, b);
+      Index itself = a;  // only roots are linked, and only to lower ones
+      if (parent(a).compare_exchange_weak(itself, b, kRelaxed)) return;
+    }
   }
 
  private:
+  static constexpr std::memory_order kRelaxed = std::memory_order_relaxed;
+  std::atomic_ref<Index> parent(Index x) { return std::atomic_ref<Index>(parent_[x]); }
+
   std::vector<Index> parent_;
 };
 

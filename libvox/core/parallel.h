@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -86,6 +87,9 @@ class LoopOrder {
   inline static char tasks_ = 0;
 };
 
+/// A grain for loops that read a few words of each element of a mesh.
+inline constexpr std::size_t kElementsPerTask = 4096;
+
 /// Calls body(begin, end), in parallel, for ranges that cover [0, count) once. Ranges have at least
 /// grain / 2 elements (unless count is smaller), and more where fewer tasks are enough.
 template <class Body>
@@ -103,6 +107,35 @@ void parallelForEach(Integer count, std::size_t grain, Body&& body) {
   parallelForRanges(count, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) body(static_cast<Integer>(i));
   });
+}
+
+/// The lowest i in [0, count) with test(i), or count if there is none. Parallel: the test must not
+/// depend on order. `grain` as in parallelForRanges.
+template <class Integer, class Test>
+Integer lowestWhere(Integer count, std::size_t grain, Test&& test) {
+  std::atomic<std::size_t> lowest = count;
+  parallelForRanges(count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && i < lowest.load(std::memory_order_relaxed); ++i) {
+      if (!test(static_cast<Integer>(i))) continue;
+      std::size_t known = lowest.load(std::memory_order_relaxed);
+      while (i < known && !lowest.compare_exchange_weak(known, i)) {
+      }
+      return;
+    }
+  });
+  return static_cast<Integer>(lowest.load());
+}
+
+/// The sum of sumOf(begin, end) over ranges that cover [0, count) once. The ranges depend on
+/// `grain` only, and are added in their order, so that rounding does not depend on threads.
+template <class Sum, class SumOf>
+Sum parallelSum(std::size_t count, std::size_t grain, Sum zero, SumOf&& sumOf) {
+  std::vector<Sum> parts((count + grain - 1) / grain, zero);
+  parallelForEach(parts.size(), 1, [&](std::size_t k) {
+    parts[k] = sumOf(k * grain, std::min(count, (k + 1) * grain));
+  });
+  for (const Sum& part : parts) zero += part;
+  return zero;
 }
 
 /// Sorts a vector in parallel. The order must be total, so that the result does not depend on

@@ -3,9 +3,11 @@
 #include "libvox/grid/transform.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <sstream>
 
 namespace vox {
@@ -22,7 +24,15 @@ std::string str(double x) {
 
 Box usedBox(const PolygonMesh& mesh) {
   Box box;
-  for (const Index v : mesh.faceVertices) box.add(mesh.points[v]);
+  std::mutex lock;
+  parallelForRanges(mesh.faceVertices.size(), kElementsPerTask,
+                    [&](std::size_t begin, std::size_t end) {
+                      Box part;
+                      for (std::size_t c = begin; c < end; ++c)
+                        part.add(mesh.points[mesh.faceVertices[c]]);
+                      const std::lock_guard guard(lock);
+                      box.add(part);
+                    });
   return box;
 }
 

@@ -73,13 +73,17 @@ FaceOrder spatialOrder(const PolygonMesh& mesh) {
 class BlockCover {
  public:
   BlockCover(const PolygonMesh& mesh, const Adjacency& adjacency, const FaceOrder& order,
-             Index first, Index last)
+             std::span<const std::uint8_t> leftOut, Index first, Index last)
       : mesh_(mesh),
         adjacency_(adjacency),
         order_(order),
         first_(first),
         last_(last),
-        covered_(last - first, false) {}
+        covered_(last - first, false) {
+    if (leftOut.empty()) return;
+    for (Index place = first; place < last; ++place)
+      covered_[place - first] = leftOut[order.faces[place]];
+  }
 
   Partition run(Index most) {
     for (const bool onBoundary : {false, true})
@@ -143,7 +147,7 @@ struct Cover {
 };
 
 Cover coverInOrder(const PolygonMesh& mesh, const Adjacency& adjacency, const FaceOrder& order,
-                   Index most) {
+                   Index most, std::span<const std::uint8_t> leftOut) {
   const Index facesPerBlock = std::max(kFacesPerBlock, most);
   const Index faces = mesh.faceCount();
   const Index blocks = faces / facesPerBlock + (faces % facesPerBlock == 0 ? 0 : 1);
@@ -151,7 +155,7 @@ Cover coverInOrder(const PolygonMesh& mesh, const Adjacency& adjacency, const Fa
   parallelForEach(blocks, 1, [&](Index b) {
     const Index first = b * facesPerBlock;
     const Index last = first + std::min(facesPerBlock, faces - first);
-    BlockCover block(mesh, adjacency, order, first, last);
+    BlockCover block(mesh, adjacency, order, leftOut, first, last);
     covers[b].partition = block.run(most);
     covers[b].centres = block.centres();
   });
@@ -179,15 +183,16 @@ Index largestNeighbourhood(const PolygonMesh& mesh) {
   return largest;
 }
 
-Partition coverGreedily(const PolygonMesh& mesh, const Adjacency& adjacency, Index most) {
+Partition coverGreedily(const PolygonMesh& mesh, const Adjacency& adjacency, Index most,
+                        std::span<const std::uint8_t> leftOut) {
   const Index faces = mesh.faceCount();
   most = std::max<Index>(most, 1);
   if (faces / kSubmeshesPerNeighbourhood > most)
     most = std::max(most, largestNeighbourhood(mesh) / kSubmeshesPerNeighbourhood);
-  Cover cover = coverInOrder(mesh, adjacency, inputOrder(faces), most);
+  Cover cover = coverInOrder(mesh, adjacency, inputOrder(faces), most, leftOut);
   constexpr std::size_t kScattered = 4;
   const bool scattered = faces > kFacesPerBlock && cover.centres > kScattered * (faces / most + 1);
-  if (scattered) cover = coverInOrder(mesh, adjacency, spatialOrder(mesh), most);
+  if (scattered) cover = coverInOrder(mesh, adjacency, spatialOrder(mesh), most, leftOut);
   return std::move(cover.partition);
 }
 

@@ -3,12 +3,13 @@
 #include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/polygon_mesh.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace vox {
 
-/// Partition of the faces of a mesh: each face is in exactly one submesh.
+/// Partition of the faces of a mesh: each face that is not left out is in exactly one submesh.
 struct Partition {
   std::vector<Index> faces;          ///< submesh after submesh
   std::vector<Index> offsets = {0};  ///< submeshes + 1
@@ -35,7 +36,9 @@ Index largestNeighbourhood(const PolygonMesh& mesh);
 ///
 /// @param most  faces of a submesh, at least 1. It is raised to an eighth of largestNeighbourhood
 ///   if that is more, because each submesh there needs all these faces.
+/// @param leftOut  for each face, whether it needs no cover; empty: all do
 /// Cost O(C). Source: paper section 4.
-Partition coverGreedily(const PolygonMesh& mesh, const Adjacency& adjacency, Index most);
+Partition coverGreedily(const PolygonMesh& mesh, const Adjacency& adjacency, Index most,
+                        std::span<const std::uint8_t> leftOut = {});
 
 }  // namespace vox

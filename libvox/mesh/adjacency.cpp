@@ -6,42 +6,75 @@
 #include "libvox/core/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace vox {
 namespace {
 
-constexpr std::size_t kFacesPerTask = 2048;
-constexpr std::size_t kVerticesPerTask = 4096;
+constexpr Index kVerticesPerRange = 1024;
+
+inline EdgeCorner edgeOf(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
+  const Index from = mesh.faceVertices[c];
+  const Index to = mesh.faceVertices[nextCorner(mesh, adjacency, c)];
+  return {std::min(from, to), std::max(from, to), c};
+}
 
 }  // namespace
 
-std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& adjacency) {
-  const auto edgeOf = [&](Index c) -> EdgeCorner {
-    const Index from = mesh.faceVertices[c];
-    const Index to = mesh.faceVertices[nextCorner(mesh, adjacency, c)];
-    return {std::min(from, to), std::max(from, to), c};
-  };
+EdgeRanges::EdgeRanges(const PolygonMesh& mesh, const Adjacency& adjacency)
+    : mesh_(mesh),
+      adjacency_(adjacency),
+      corners_(mesh.faceCount(), mesh.pointCount() / kVerticesPerRange + 1,
+               [&mesh](Index f, auto&& put) {
+                 const Index end = mesh.faceOffsets[f + 1];
+                 Index from = mesh.faceVertices[end - 1];
+                 Index c = end - 1;
+                 for (Index next = mesh.faceOffsets[f]; next != end; c = next++) {
+                   const Index to = mesh.faceVertices[next];
+                   put(std::min(from, to) / kVerticesPerRange, c);
+                   from = to;
+                 }
+               }) {}
+
+std::vector<EdgeCorner> EdgeRanges::corners(Index range) const {
   // A counting sort by the lower vertex; the few corners that share one are then sorted by edge.
-  std::vector<Index> end(std::size_t{mesh.pointCount()} + 1, 0);
-  for (Index c = 0; c < mesh.cornerCount(); ++c) ++end[std::size_t{edgeOf(c).low} + 1];
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<EdgeCorner> edges(mesh.cornerCount());
-  for (Index c = 0; c < mesh.cornerCount(); ++c) {
-    const EdgeCorner edge = edgeOf(c);
-    edges[end[edge.low]++] = edge;
+  const std::span<const Index> unsorted = corners_[range];
+  std::array<Index, kVerticesPerRange + 1> end{};
+  std::vector<EdgeCorner> edges;
+  edges.reserve(unsorted.size());
+  for (const Index c : unsorted) {
+    edges.push_back(edgeOf(mesh_, adjacency_, c));
+    ++end[edges.back().low % kVerticesPerRange + 1];
   }
-  parallelForEach(mesh.pointCount(), kVerticesPerTask, [&](Index v) {
-    const Index begin = v == 0 ? 0 : end[v - 1];
-    std::sort(edges.begin() + begin, edges.begin() + end[v]);
-  });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<EdgeCorner> sorted(edges.size());
+  for (const EdgeCorner& edge : edges) sorted[end[edge.low % kVerticesPerRange]++] = edge;
+  for (auto begin = sorted.begin(); begin != sorted.end();) {
+    const auto last = sorted.begin() + end[begin->low % kVerticesPerRange];
+    std::sort(begin, last, [](const EdgeCorner& a, const EdgeCorner& b) {
+      return a.high != b.high ? a.high < b.high : a.corner < b.corner;
+    });
+    begin = last;
+  }
+  return sorted;
+}
+
+std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& adjacency) {
+  const EdgeRanges ranges(mesh, adjacency);
+  std::vector<std::vector<EdgeCorner>> sorted(ranges.size());
+  parallelForEach(ranges.size(), 1, [&](Index range) { sorted[range] = ranges.corners(range); });
+  std::vector<EdgeCorner> edges;
+  edges.reserve(mesh.cornerCount());
+  for (const std::vector<EdgeCorner>& part : sorted)
+    edges.insert(edges.end(), part.begin(), part.end());
   return edges;
 }
 
 Adjacency separateFaces(const PolygonMesh& mesh) {
   Adjacency adjacency{std::vector<Index>(mesh.cornerCount(), kNone),
                       std::vector<Index>(mesh.cornerCount())};
-  parallelForEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
+  parallelForEach(mesh.faceCount(), kElementsPerTask, [&](Index f) {
     std::fill(adjacency.cornerFace.begin() + mesh.faceOffsets[f],
               adjacency.cornerFace.begin() + mesh.faceOffsets[f + 1], f);
   });
@@ -50,7 +83,7 @@ Adjacency separateFaces(const PolygonMesh& mesh) {
 
 Adjacency buildAdjacency(const PolygonMesh& mesh) {
   Adjacency adjacency = separateFaces(mesh);
-  forEachEdge(cornersByEdge(mesh, adjacency), [&](std::span<const EdgeCorner> edge) {
+  forEachEdgeInParallel(mesh, adjacency, [&](std::span<const EdgeCorner> edge) {
     if (edge.size() != 2 || edge[0].low == edge[0].high) return;
     const Index a = edge[0].corner;
     const Index b = edge[1].corner;
@@ -79,8 +112,12 @@ OneRing oneRing(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
 
 std::vector<std::vector<Index>> boundaryLoops(const PolygonMesh& mesh, const Adjacency& adjacency) {
   std::vector<std::vector<Index>> loops;
+  const Index corners = mesh.cornerCount();
+  const Index lowest =
+      lowestWhere(corners, kElementsPerTask, [&](Index c) { return adjacency.twin[c] == kNone; });
+  if (lowest == corners) return loops;
   std::vector<bool> visited(mesh.cornerCount(), false);
-  for (Index first = 0; first < mesh.cornerCount(); ++first) {
+  for (Index first = lowest; first < mesh.cornerCount(); ++first) {
     if (adjacency.twin[first] != kNone || visited[first]) continue;
     auto& loop = loops.emplace_back();
     for (Index c = first; !visited[c];) {

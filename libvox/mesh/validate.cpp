@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/forest.h"
+#include "libvox/core/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -106,12 +107,12 @@ void requireValidOffsets(const PolygonMesh& mesh) {
   if (mesh.faceOffsets.empty() || mesh.faceOffsets.front() != 0 ||
       mesh.faceOffsets.back() != mesh.faceVertices.size())
     throw MeshError("faceOffsets must start at 0 and end at the number of corners");
-  for (Index f = 0; f < mesh.faceCount(); ++f) {
+  const Index bad = lowestWhere(mesh.faceCount(), kElementsPerTask, [&](Index f) {
     const auto begin = mesh.faceOffsets[f];
     const auto end = mesh.faceOffsets[f + 1];
-    if (end < begin || end - begin < 3)
-      throw MeshError("face " + str(f) + " has fewer than 3 corners");
-  }
+    return end < begin || end - begin < 3;
+  });
+  if (bad < mesh.faceCount()) throw MeshError("face " + str(bad) + " has fewer than 3 corners");
 }
 
 void requireValidSets(const PolygonMesh& mesh, const FaceSets& sets, const char* name) {
@@ -164,11 +165,14 @@ std::vector<Defect> findDefects(const PolygonMesh& mesh, const Adjacency& adjace
 
 void requireValidArrays(const PolygonMesh& mesh) {
   requireValidOffsets(mesh);
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-    for (const Index v : mesh.face(f))
-      if (v >= mesh.pointCount())
-        throw MeshError("face " + str(f) + " names vertex " + str(v) + " of " +
-                        str(mesh.pointCount()));
+  const auto namesNone = [&](Index c) { return mesh.faceVertices[c] >= mesh.pointCount(); };
+  const Index wrong = lowestWhere(mesh.cornerCount(), kElementsPerTask, namesNone);
+  if (wrong < mesh.cornerCount()) {
+    const auto after = std::upper_bound(mesh.faceOffsets.begin(), mesh.faceOffsets.end(), wrong);
+    throw MeshError("face " + std::to_string(after - mesh.faceOffsets.begin() - 1) +
+                    " names vertex " + str(mesh.faceVertices[wrong]) + " of " +
+                    str(mesh.pointCount()));
+  }
   const auto fits = [](const auto& colors, std::size_t n) {
     return colors.empty() || colors.size() == n;
   };
@@ -177,9 +181,10 @@ void requireValidArrays(const PolygonMesh& mesh) {
   if (!fits(mesh.faceGroups, mesh.faceCount()))
     throw MeshError("faceGroups must have one group per face, or none");
   requireValidAttributes(mesh);
-  for (Index v = 0; v < mesh.pointCount(); ++v)
-    if (!mesh.points[v].allFinite())
-      throw MeshError("vertex " + str(v) + " has a coordinate that is not finite");
+  const Index infinite = lowestWhere(mesh.pointCount(), kElementsPerTask,
+                                     [&](Index v) { return !mesh.points[v].allFinite(); });
+  if (infinite < mesh.pointCount())
+    throw MeshError("vertex " + str(infinite) + " has a coordinate that is not finite");
 }
 
 void requireManifold(const PolygonMesh& mesh, const Adjacency& adjacency) {

@@ -5,6 +5,7 @@
 
 #include "libvox/core/memory.h"
 #include "libvox/core/numbered.h"
+#include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/mesh/area_vector.h"
@@ -17,10 +18,13 @@
 #include "libvox/subdivide/stop.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <optional>
 #include <sstream>
 #include <unordered_set>
+#include <vector>
 
 namespace vox {
 namespace {
@@ -57,12 +61,18 @@ class Cubes {
   void add(const PolygonMesh& mesh, double area) {
     complete_ = complete_ && area / (piece() * piece()) <= mostPieces_;
     if (!complete_) return;
-    for (Index f = 0; f < mesh.faceCount(); ++f) {
-      const auto face = mesh.face(f);
-      const auto& p = mesh.points;
-      for (std::size_t i = 1; i + 1 < face.size(); ++i)
-        addTriangle(p[face[0]], p[face[i]], p[face[i + 1]]);
-    }
+    parallelForRanges(mesh.faceCount(), kElementsPerTask, [&](std::size_t begin, std::size_t end) {
+      Found found;
+      for (std::size_t f = begin; f < end; ++f) {
+        const auto face = mesh.face(static_cast<Index>(f));
+        const auto& p = mesh.points;
+        for (std::size_t i = 1; i + 1 < face.size(); ++i)
+          addTriangle(p[face[0]], p[face[i]], p[face[i + 1]], found);
+      }
+      const std::lock_guard guard(lock_);
+      cubes_.insert(found.cubes.begin(), found.cubes.end());
+    });
+    complete_ = cuts_ < kMostCuts;
   }
 
   /// Number of cubes; empty if it gave up.
@@ -80,37 +90,44 @@ class Cubes {
 
   double piece() const { return std::ldexp(0.5, log2_); }
 
-  void addTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  /// The cubes that some triangles meet.
+  struct Found {
+    std::vector<Coord> cubes;  // without repeats in a row: neighbours share their cube
+    void add(const Coord& cube) {
+      if (cubes.empty() || cubes.back() != cube) cubes.push_back(cube);
+    }
+  };
+
+  void addTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, Found& found) {
     const Vec3d low = a.cwiseMin(b).cwiseMin(c);
     const Vec3d high = a.cwiseMax(b).cwiseMax(c);
-    for (const Vec3d& p : {a, b, c}) cubes_.insert(Coord::round(openvdb::Vec3d(p.data())) >> log2_);
-    if ((high - low).maxCoeff() <= piece() || !complete_) return;
-    complete_ = ++cuts_ < kMostCuts;
+    for (const Vec3d& p : {a, b, c}) found.add(Coord::round(openvdb::Vec3d(p.data())) >> log2_);
+    if ((high - low).maxCoeff() <= piece() || ++cuts_ >= kMostCuts) return;
     const double ab = (b - a).norm();
     const double bc = (c - b).norm();
     const double ca = (a - c).norm();
-    if (ab >= bc && ab >= ca) return addHalves(c, a, b);
-    if (bc >= ca) return addHalves(a, b, c);
-    addHalves(b, c, a);
+    if (ab >= bc && ab >= ca) return addHalves(c, a, b, found);
+    if (bc >= ca) return addHalves(a, b, c, found);
+    addHalves(b, c, a, found);
   }
   /// Cuts the side from a to b.
-  void addHalves(const Vec3d& top, const Vec3d& a, const Vec3d& b) {
+  void addHalves(const Vec3d& top, const Vec3d& a, const Vec3d& b, Found& found) {
     const Vec3d middle = (a + b) / 2;
-    addTriangle(top, a, middle);
-    addTriangle(top, middle, b);
+    addTriangle(top, a, middle, found);
+    addTriangle(top, middle, b, found);
   }
 
   int log2_;
   double mostPieces_;
   bool complete_ = true;
-  std::size_t cuts_ = 0;
+  std::atomic<std::size_t> cuts_ = 0;
+  std::mutex lock_;
   std::unordered_set<Coord> cubes_;
 };
 
 bool hasOpenEdge(const SubdivisionLevel& base) {
-  for (Index c = 0; c < base.mesh.cornerCount(); ++c)
-    if (base.isOpen(c)) return true;
-  return false;
+  const Index corners = base.mesh.cornerCount();
+  return lowestWhere(corners, kElementsPerTask, [&](Index c) { return base.isOpen(c); }) < corners;
 }
 
 /// True if a surface may become far smaller than its control mesh: then nothing is certain.
@@ -118,15 +135,30 @@ bool shrinks(const PreparedSurface& surface) {
   return surface.base.boundary == BoundaryStage::kPlain && hasOpenEdge(surface.base);
 }
 
-void addAreas(const PolygonMesh& polygons, Measure& measure) {
-  for (Index f = 0; f < polygons.faceCount(); ++f) {
-    const auto face = polygons.face(f);
-    const Vec3d twice = twiceAreaVector(
-        face.size(), [&](std::size_t i) -> const Vec3d& { return polygons.points[face[i]]; });
-    measure.area += twice.norm() / 2;
-    measure.taxicabArea += twice.cwiseAbs().sum() / 2;
-    measure.largestArea += twice.cwiseAbs().maxCoeff() / 2;
+struct Areas {
+  double area = 0;
+  double taxicab = 0;
+  double largest = 0;
+  Areas& operator+=(const Areas& part) {
+    area += part.area;
+    taxicab += part.taxicab;
+    largest += part.largest;
+    return *this;
   }
+};
+
+Areas areasOf(const PolygonMesh& polygons) {
+  const auto sumOf = [&](std::size_t begin, std::size_t end) {
+    Areas sum;
+    for (std::size_t f = begin; f < end; ++f) {
+      const auto face = polygons.face(static_cast<Index>(f));
+      const Vec3d twice = twiceAreaVector(
+          face.size(), [&](std::size_t i) -> const Vec3d& { return polygons.points[face[i]]; });
+      sum += {twice.norm() / 2, twice.cwiseAbs().sum() / 2, twice.cwiseAbs().maxCoeff() / 2};
+    }
+    return sum;
+  };
+  return parallelSum(polygons.faceCount(), kElementsPerTask, Areas{}, sumOf);
 }
 
 /// Number of active voxels. Vertex conversion misses some cubes that the surface only just cuts.
@@ -150,9 +182,15 @@ Box boxOf(const Region& region) {
 Measure measureOf(const PreparedSurface& surface, const Region& region, Cubes& leaves,
                   Cubes& lowers) {
   Measure measure;
-  const PolygonMesh whole = fewPolygons(surface.base, levelOf(surface.way));
-  const PolygonMesh polygons = region.isAll() ? whole : croppedTo(boxOf(region), whole);
-  addAreas(polygons, measure);
+  const std::optional<PolygonMesh> few = fewPolygons(surface.base, levelOf(surface.way));
+  const PolygonMesh& whole = few ? *few : surface.base.mesh;
+  PolygonMesh cropped;
+  if (!region.isAll()) cropped = croppedTo(boxOf(region), whole);
+  const PolygonMesh& polygons = region.isAll() ? whole : cropped;
+  const Areas areas = areasOf(polygons);
+  measure.area = areas.area;
+  measure.taxicabArea = areas.taxicab;
+  measure.largestArea = areas.largest;
   leaves.add(polygons, measure.area);
   lowers.add(polygons, measure.area);
   const bool open = hasOpenEdge(surface.base);

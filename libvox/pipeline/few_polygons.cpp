@@ -32,10 +32,10 @@ void moveHalfway(PolygonMesh& mesh, const std::vector<Vec3d>& limits) {
 
 }  // namespace
 
-PolygonMesh fewPolygons(const SubdivisionLevel& base, std::optional<int> levels) {
+std::optional<PolygonMesh> fewPolygons(const SubdivisionLevel& base, std::optional<int> levels) {
   constexpr Index kEnoughCorners = 10000;
   const int most = levels.value_or(kMostLevels);
-  if (most == 0 || base.mesh.cornerCount() > kEnoughCorners) return base.mesh;
+  if (most == 0 || base.mesh.cornerCount() > kEnoughCorners) return std::nullopt;
   SubdivisionLevel level = base;
   int k = 0;
   do {

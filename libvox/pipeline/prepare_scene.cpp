@@ -3,6 +3,7 @@
 #include "libvox/pipeline/prepare_scene.h"
 
 #include "libvox/core/memory.h"
+#include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/core/stopwatch.h"
 #include "libvox/mesh/adjacency.h"
@@ -28,7 +29,8 @@ namespace vox {
 namespace {
 
 void moveToIndexSpace(PolygonMesh& mesh, const GridTransform& transform) {
-  for (Vec3d& point : mesh.points) point = transform.toIndex(point);
+  parallelForEach(mesh.pointCount(), kElementsPerTask,
+                  [&](Index v) { mesh.points[v] = transform.toIndex(mesh.points[v]); });
 }
 
 /// Warns of boundaries from which the surface shrinks, and of faces that are not joined.

@@ -98,9 +98,10 @@ std::vector<Index> composed(const std::vector<Index>& first, const std::vector<I
   return both;
 }
 
-/// The mesh of an object made sound; a warning tells what was done to it.
+/// The mesh of an object made sound, and its adjacency; a warning tells what was done to it.
 PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
-                        ElementOrigin& origin, std::vector<std::string>& warnings) {
+                        ElementOrigin& origin, Adjacency& adjacency,
+                        std::vector<std::string>& warnings) {
   DebrisReport debris;
   SoundReport report;
   PolygonMesh mesh =
@@ -119,6 +120,7 @@ PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& prep
   origin.weldedTo = std::move(report.repair.weldedTo);
   origin.points = std::move(report.orient.pointOrigin);
   origin.faces = std::move(report.orient.faceOrigin);
+  adjacency = std::move(report.orient.adjacency);
   if (!debris.keptFaces.empty()) origin.faces = composed(debris.keptFaces, origin.faces);
   return mesh;
 }
@@ -354,16 +356,17 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
   SubdivisionLevel& base = prepared.base;
   namingObject(scene, object, [&] {
     ElementOrigin origin;
-    PolygonMesh mesh = soundMeshOf(object, preparation, origin, prepared.warnings);
+    Adjacency adjacency;
+    PolygonMesh mesh = soundMeshOf(object, preparation, origin, adjacency, prepared.warnings);
     progress.check();
     std::vector<Index> pointBeforeCut;
     std::vector<Index> seam;
     if (preparation.mayCrease()) {
-      const Adjacency adjacency = buildAdjacency(mesh);
       const SharpFeatures sharp =
           sharpFeaturesOf(object, preparation, mesh, adjacency, origin, prepared.warnings);
       CutMesh cut = cutCreases(std::move(mesh), adjacency, sharp);
       mesh = std::move(cut.mesh);
+      adjacency = buildAdjacency(mesh);
       seam = std::move(cut.seam);
       pointBeforeCut = std::move(cut.pointOrigin);
       prepared.creases = cut.counts;
@@ -372,7 +375,7 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
     if (preparation.followsTexcoords)
       prepared.texcoords =
           followedTexcoords(object.mesh, mesh, {origin.weldedTo, origin.points, origin.faces});
-    base = baseLevel(std::move(mesh), preparation.boundary);
+    base = baseLevel(std::move(mesh), std::move(adjacency), preparation.boundary);
     base.seam = std::move(seam);
     prepared.faceOrigin = std::move(origin.faces);
     progress.check();

@@ -50,8 +50,9 @@ void finish(const SubmeshTask& task, bool split, Progress& progress, double part
 
 }  // namespace
 
-Submeshes cutIntoSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& options) {
-  return {base, coverGreedily(base.mesh, base.adjacency, options.submeshFaces),
+Submeshes cutIntoSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& options,
+                           std::span<const std::uint8_t> leftOut) {
+  return {base, coverGreedily(base.mesh, base.adjacency, options.submeshFaces, leftOut),
           options.localize != Localize::kBefore};
 }
 

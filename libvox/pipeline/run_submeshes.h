@@ -24,8 +24,10 @@ struct Submeshes {
   std::vector<bool> skipped = {};  ///< submeshes that are not walked over; empty: none
 };
 
-/// @param base  level 0 in index space; must outlive the result
-Submeshes cutIntoSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& options);
+/// @param base     level 0 in index space; must outlive the result
+/// @param leftOut  for each face, whether it is in no submesh; empty: all are in one
+Submeshes cutIntoSubmeshes(const SubdivisionLevel& base, const SurfaceOptions& options,
+                           std::span<const std::uint8_t> leftOut = {});
 
 /// Skips the submeshes that come nowhere near a region: whose control points, with those of all
 /// faces around them, lie in a box that is farther away.

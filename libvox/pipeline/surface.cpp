@@ -3,6 +3,7 @@
 #include "libvox/pipeline/surface.h"
 
 #include "libvox/core/memory.h"
+#include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/grid/active_voxels.h"
 #include "libvox/grid/region.h"
@@ -11,6 +12,7 @@
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/run_submeshes.h"
 #include "libvox/subdivide/doo_sabin.h"
+#include "libvox/subdivide/fan_vertices.h"
 #include "libvox/subdivide/global_surface.h"
 #include "libvox/subdivide/local_surface.h"
 #include "libvox/subdivide/stop.h"
@@ -20,7 +22,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace vox {
@@ -88,15 +92,60 @@ double verticesOf(const VertexSink& sink) {
   return std::accumulate(sink.vertices().begin(), sink.vertices().end(), 0.0);
 }
 
-void markSubmeshes(const Submeshes& submeshes, const Region& region, Progress& progress,
-                   ThreadSinks& sinks) {
-  const auto walkerOfThread = [&] { return LocalSurface(submeshes.base); };
-  runSubmeshes(submeshes, progress, 1, walkerOfThread, [&](LocalSurface& local, SubmeshTask& task) {
-    SubmeshSink sink(region, sinks, task);
-    const double before = verticesOf(sinks.local());
-    local.emit(task.faces, sink);
-    task.walked = verticesOf(sinks.local()) - before;
+/// Marks the vertices of dense parts of the mesh.
+/// @return  for each vertex of the mesh, whether all that the corners there own is marked
+std::vector<std::uint8_t> markFans(const SubdivisionLevel& base, const Region& region,
+                                   Progress& progress, ThreadSinks& sinks) {
+  std::vector<std::uint8_t> marked(base.mesh.pointCount(), 0);
+  tbb::enumerable_thread_specific<FanVertices> fans([&] { return FanVertices(base); });
+  const auto isNear = [&](const Vec3d& at) {
+    if (region.isAll()) return true;
+    const double reach = FanVertices::kReach + kMarginOfMarks;
+    return region.meets({at.array() - reach, at.array() + reach});
+  };
+  parallelForRanges(
+      base.mesh.cornerCount(), kElementsPerTask, [&](std::size_t begin, std::size_t end) {
+        progress.check();
+        FanVertices& fan = fans.local();
+        VertexSink& sink = sinks.local();
+        for (auto c = static_cast<Index>(begin); c < end; ++c) {
+          const Index valence = ledOneRingSize(base.mesh, base.adjacency, c);
+          if (valence == 0) continue;
+          const Index v = base.mesh.faceVertices[c];
+          marked[v] = fan.emit(c, valence, isNear(base.mesh.points[v]) ? &sink : nullptr);
+        }
+        fan.flush(sink);
+      });
+  return marked;
+}
+
+/// The faces all of whose vertices are marked.
+std::vector<std::uint8_t> markedFaces(const PolygonMesh& mesh,
+                                      const std::vector<std::uint8_t>& markedVertices) {
+  std::vector<std::uint8_t> marked(mesh.faceCount());
+  parallelForEach(mesh.faceCount(), kElementsPerTask, [&](Index f) {
+    const std::span<const Index> face = mesh.face(f);
+    marked[f] = std::all_of(face.begin(), face.end(), [&](Index v) { return markedVertices[v]; });
   });
+  return marked;
+}
+
+/// @param leftOut  vertices of the mesh whose corners are marked already
+/// @param part     the share of this in the current stage of the progress
+void markSubmeshes(const Submeshes& submeshes, std::span<const std::uint8_t> leftOut,
+                   const Region& region, Progress& progress, double part, ThreadSinks& sinks) {
+  const auto walkerOfThread = [&] {
+    LocalSurface walker(submeshes.base);
+    walker.leaveOut(leftOut);
+    return walker;
+  };
+  runSubmeshes(submeshes, progress, part, walkerOfThread,
+               [&](LocalSurface& local, SubmeshTask& task) {
+                 SubmeshSink sink(region, sinks, task);
+                 const double before = verticesOf(sinks.local());
+                 local.emit(task.faces, sink);
+                 task.walked = verticesOf(sinks.local()) - before;
+               });
 }
 
 /// Bytes of the next step, and of the tables that tell which of its vertices are deep enough.
@@ -141,10 +190,17 @@ void markSurface(const SubdivisionLevel& base, const SurfaceOptions& options,
   if (options.localize == Localize::kOff) {
     markWhole(base, budget, progress, grid, sinks.local());
   } else {
-    Submeshes submeshes = cutIntoSubmeshes(base, options);
-    skipFarFrom(grid.region(), kMarginOfMarks, submeshes);
-    report.submeshes += submeshes.partition.size();
-    markSubmeshes(submeshes, grid.region(), progress, sinks);
+    const std::vector<std::uint8_t> vertices = markFans(base, grid.region(), progress, sinks);
+    const std::vector<std::uint8_t> faces = markedFaces(base.mesh, vertices);
+    const auto marked = static_cast<double>(std::count(faces.begin(), faces.end(), 1));
+    const double part = marked / base.mesh.faceCount();
+    progress.done(part);
+    if (part < 1) {
+      Submeshes submeshes = cutIntoSubmeshes(base, options, faces);
+      skipFarFrom(grid.region(), kMarginOfMarks, submeshes);
+      report.submeshes += submeshes.partition.size();
+      markSubmeshes(submeshes, vertices, grid.region(), progress, 1 - part, sinks);
+    }
   }
   for (VertexSink& sink : sinks) {
     sink.flush();

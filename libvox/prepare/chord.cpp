@@ -2,6 +2,8 @@
 
 #include "libvox/prepare/chord.h"
 
+#include "libvox/core/parallel.h"
+
 #include <utility>
 
 namespace vox {
@@ -130,6 +132,15 @@ class Chording {
 };
 
 }  // namespace
+
+bool hasInteriorPair(const PolygonMesh& mesh, const Adjacency& joints) {
+  const Index corners = mesh.cornerCount();
+  return lowestWhere(corners, kElementsPerTask, [&](Index c) {
+           const Index out = joints.twin[c];
+           const Index in = joints.twin[previousCorner(mesh, joints, c)];
+           return out != kNone && in != kNone && joints.cornerFace[out] == joints.cornerFace[in];
+         }) < corners;
+}
 
 ChordResult chordInteriorPairs(const PolygonMesh& mesh, const Adjacency& joints) {
   return Chording(mesh, joints).run();

@@ -16,6 +16,9 @@ struct ChordResult {
   std::vector<Index> vanishedComponents;  ///< last face of each component without any face left
 };
 
+/// Whether there is an interior vertex of two faces. Parallel. Arguments as chordInteriorPairs.
+bool hasInteriorPair(const PolygonMesh& mesh, const Adjacency& joints);
+
 /// Removes every interior vertex of two faces from both faces, so that these share one edge instead
 /// of two. Drops a face with two corners left and joins its neighbours to each other. Repeats this
 /// until no such vertex is left. Vertices on the boundary stay.

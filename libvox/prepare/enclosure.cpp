@@ -3,6 +3,8 @@
 
 #include "libvox/prepare/enclosure.h"
 
+#include "libvox/core/parallel.h"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -39,16 +41,19 @@ bool rayMeets(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
 }  // namespace
 
 SignedVolume signedVolume(const PolygonMesh& mesh, std::span<const Index> faces) {
-  SignedVolume sum;
-  if (faces.empty()) return sum;
+  if (faces.empty()) return {};
   const Vec3d origin = mesh.points[mesh.face(faces[0])[0]];
-  for (const Index f : faces)
-    forEachTriangle(mesh, f, [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-      const double six = (a - origin).dot(Vec3d(b - origin).cross(Vec3d(c - origin)));
-      sum.volume += six / 6;
-      sum.scale += std::abs(six) / 6;
-    });
-  return sum;
+  const auto sumOf = [&](std::size_t begin, std::size_t end) {
+    SignedVolume sum;
+    for (const Index f : faces.subspan(begin, end - begin))
+      forEachTriangle(mesh, f, [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+        const double six = (a - origin).dot(Vec3d(b - origin).cross(Vec3d(c - origin)));
+        sum.volume += six / 6;
+        sum.scale += std::abs(six) / 6;
+      });
+    return sum;
+  };
+  return parallelSum(faces.size(), kElementsPerTask, SignedVolume{}, sumOf);
 }
 
 bool encloses(const PolygonMesh& mesh, std::span<const Index> faces, const Vec3d& point) {

@@ -11,11 +11,16 @@ namespace vox {
 struct SignedVolume {
   double volume = 0;
   double scale = 0;
+  SignedVolume& operator+=(const SignedVolume& part) {
+    volume += part.volume;
+    scale += part.scale;
+    return *this;
+  }
   int sign() const { return volume > 1e-12 * scale ? 1 : volume < -1e-12 * scale ? -1 : 0; }
 };
 
 /// Signed volume of a closed set of faces, each cut into a fan of triangles from its first corner.
-/// Summed in the order of the faces, by one thread.
+/// Parallel; the result does not depend on threads.
 SignedVolume signedVolume(const PolygonMesh& mesh, std::span<const Index> faces);
 
 /// Whether the ray from a point in +x crosses a closed set of faces an odd number of times. The

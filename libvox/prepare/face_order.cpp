@@ -9,11 +9,6 @@
 #include <algorithm>
 
 namespace vox {
-namespace {
-
-constexpr Index kFacesPerTask = 2048;
-
-}  // namespace
 
 void startAtLowest(std::span<Index> face) {
   std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
@@ -26,9 +21,15 @@ bool canonicalize(std::span<Index> face) {
   return reversed;
 }
 
+void startFacesAtLowest(PolygonMesh& mesh) {
+  parallelForEach(mesh.faceCount(), kElementsPerTask, [&](Index f) {
+    startAtLowest({mesh.faceVertices.data() + mesh.faceOffsets[f], mesh.faceSize(f)});
+  });
+}
+
 std::vector<std::uint8_t> canonicalizeFaces(PolygonMesh& mesh) {
   std::vector<std::uint8_t> reversed(mesh.faceCount());
-  parallelForEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
+  parallelForEach(mesh.faceCount(), kElementsPerTask, [&](Index f) {
     reversed[f] = canonicalize({mesh.faceVertices.data() + mesh.faceOffsets[f], mesh.faceSize(f)});
   });
   return reversed;

@@ -11,6 +11,9 @@ namespace vox {
 /// Rotates the list of a face so that it starts with the lowest vertex; the winding stays.
 void startAtLowest(std::span<Index> face);
 
+/// Does so for every face. Parallel.
+void startFacesAtLowest(PolygonMesh& mesh);
+
 /// Brings a face of distinct vertices into canonical form: first its lowest vertex, then the lower
 /// of the two neighbours of this vertex. Two faces have the same canonical form exactly if they are
 /// the same cycle of vertices, in either direction.

@@ -173,7 +173,7 @@ Attempt attempt(const PolygonMesh& mesh, RepairOptions options, double tolerance
   options.weldTolerance = tolerance;
   SoundReport report;
   const PolygonMesh sound = soundMesh(mesh, options, report);
-  return {boundaryLoops(sound, buildAdjacency(sound)).size(), sound.faceCount()};
+  return {boundaryLoops(sound, report.orient.adjacency).size(), sound.faceCount()};
 }
 
 /// Tries the widths of some seams, widest first.

@@ -1,12 +1,12 @@
-// Sheets: union-find over faces, with a bit for the winding (WindingForest). Fans: union-find over
-// corners.
-// Cutting along singular edges and vertices: A. Gueziec, G. Taubin, F. Lazarus, W. Horn, Cutting
-// and stitching: converting sets of polygons to manifold surfaces, 2001.
+// Sheets: union-find over faces, with a bit for the winding (WindingForest). Fans: walks from
+// corner to corner around a vertex. Cutting along singular edges and vertices: A. Gueziec, G.
+// Taubin, F. Lazarus, W. Horn, Cutting and stitching: converting sets of polygons to manifold
+// surfaces, 2001.
 
 #include "libvox/prepare/manifold.h"
 
 #include "libvox/core/error.h"
-#include "libvox/core/forest.h"
+#include "libvox/core/parallel.h"
 #include "libvox/mesh/area_vector.h"
 #include "libvox/mesh/winding_forest.h"
 #include "libvox/prepare/face_order.h"
@@ -14,7 +14,10 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <mutex>
 #include <tuple>
 #include <utility>
 
@@ -103,69 +106,131 @@ class EdgePairing {
   WindingForest sheets_;
 };
 
-void pairCrowdedEdges(const PolygonMesh& mesh, std::span<const EdgeCorner> edges,
-                      Adjacency& adjacency) {
-  EdgePairing pairing(mesh, adjacency);
-  forEachEdge(edges, [&](std::span<const EdgeCorner> edge) {
-    if (edge.size() > 2) pairing.pair(edge);
-  });
+/// The corners of one fan, in the order of a walk around their vertex. The winding of the faces
+/// does not matter.
+class FanWalk {
+ public:
+  /// @param leaving  whether the first step crosses the edge that leaves the vertex in the face of
+  ///                 c, or the one that arrives there
+  FanWalk(const PolygonMesh& mesh, const Adjacency& joints, Index c, bool leaving)
+      : mesh_(mesh), joints_(joints), vertex_(mesh.faceVertices[c]) {
+    edge_ = leaving ? c : previousCorner(mesh, joints, c);
+  }
+
+  /// The next corner, or kNone where the fan ends.
+  Index next() {
+    const Index t = joints_.twin[edge_];
+    if (t == kNone) return kNone;
+    const bool leaves = mesh_.faceVertices[t] == vertex_;
+    const Index corner = leaves ? t : nextCorner(mesh_, joints_, t);
+    edge_ = leaves ? previousCorner(mesh_, joints_, t) : corner;
+    return corner;
+  }
+
+ private:
+  const PolygonMesh& mesh_;
+  const Adjacency& joints_;
+  Index vertex_;
+  Index edge_ = kNone;
+};
+
+/// All corners of the fan of c.
+std::vector<Index> fanOf(const PolygonMesh& mesh, const Adjacency& joints, Index c) {
+  std::vector<Index> corners = {c};
+  for (const bool leaving : {true, false}) {
+    FanWalk walk(mesh, joints, c, leaving);
+    Index corner = walk.next();
+    for (; corner != kNone && corner != c; corner = walk.next()) corners.push_back(corner);
+    if (corner == c) break;  // a closed fan
+  }
+  return corners;
 }
 
-/// Fans, as sets of corners.
-Forest findFans(const PolygonMesh& mesh, const Adjacency& joints) {
-  Forest fans(mesh.cornerCount());
-  for (Index c = 0; c < mesh.cornerCount(); ++c) {
-    const Index t = joints.twin[c];
-    if (t == kNone || t < c) continue;
-    const bool same = mesh.faceVertices[c] == mesh.faceVertices[t];
-    const Index tNext = nextCorner(mesh, joints, t);
-    fans.unite(c, same ? t : tNext);
-    fans.unite(nextCorner(mesh, joints, c), same ? tNext : t);
+/// Whether c is the lowest corner of its fan. The two walks take turns, so that all corners of a
+/// fan of n together take O(n log n) steps.
+bool isLowestOfFan(const PolygonMesh& mesh, const Adjacency& joints, Index c) {
+  FanWalk first(mesh, joints, c, true);
+  FanWalk second(mesh, joints, c, false);
+  Index left = first.next();
+  Index right = second.next();
+  for (;;) {
+    if (left == c || right == c || (left == kNone && right == kNone)) return true;
+    if (left < c || right < c) return false;
+    if (left != kNone) left = first.next();
+    if (right != kNone) right = second.next();
   }
+}
+
+/// For each vertex, whether it has several fans.
+std::vector<std::uint8_t> verticesOfSeveralFans(const PolygonMesh& mesh, const Adjacency& joints) {
+  std::vector<std::uint8_t> fans(mesh.pointCount(), 0);  // none, one, several
+  parallelForEach(mesh.cornerCount(), kElementsPerTask, [&](Index c) {
+    if (!isLowestOfFan(mesh, joints, c)) return;
+    std::atomic_ref<std::uint8_t> known(fans[mesh.faceVertices[c]]);
+    std::uint8_t none = 0;
+    if (!known.compare_exchange_strong(none, 1)) known.store(2);
+  });
+  for (std::uint8_t& several : fans) several = several == 2;
   return fans;
+}
+
+/// A fan, and the vertex that it has in common with others.
+struct SharedFan {
+  Index vertex;
+  Index lowest;  ///< corner
+  auto operator<=>(const SharedFan&) const = default;
+};
+
+/// The fans that need a vertex of their own, sorted: at each vertex, all but the lowest.
+std::vector<SharedFan> furtherFans(const PolygonMesh& mesh, const Adjacency& joints) {
+  const std::vector<std::uint8_t> several = verticesOfSeveralFans(mesh, joints);
+  std::vector<SharedFan> shared;
+  if (std::find(several.begin(), several.end(), 1) == several.end()) return shared;
+  for (Index c = 0; c < mesh.cornerCount(); ++c)
+    if (several[mesh.faceVertices[c]] && isLowestOfFan(mesh, joints, c))
+      shared.push_back({mesh.faceVertices[c], c});
+  std::sort(shared.begin(), shared.end());
+  std::vector<SharedFan> further;
+  for (std::size_t k = 1; k < shared.size(); ++k)
+    if (shared[k].vertex == shared[k - 1].vertex) further.push_back(shared[k]);
+  return further;
 }
 
 }  // namespace
 
 Joints joinFaces(const PolygonMesh& mesh, CrowdedEdge crowded) {
   Joints joints{separateFaces(mesh), {}};
-  const auto edges = cornersByEdge(mesh, joints.adjacency);
-  forEachEdge(edges, [&](std::span<const EdgeCorner> edge) {
-    if (edge.size() > 2) joints.crowdedEdges.push_back(edge[0].corner);
-    if (edge.size() != 2) return;
-    joints.adjacency.twin[edge[0].corner] = edge[1].corner;
-    joints.adjacency.twin[edge[1].corner] = edge[0].corner;
+  std::vector<EdgeCorner> crowdedCorners;
+  std::mutex lock;
+  forEachEdgeInParallel(mesh, joints.adjacency, [&](std::span<const EdgeCorner> edge) {
+    if (edge.size() == 2) {
+      joints.adjacency.twin[edge[0].corner] = edge[1].corner;
+      joints.adjacency.twin[edge[1].corner] = edge[0].corner;
+    } else if (edge.size() > 2) {
+      const std::lock_guard guard(lock);
+      crowdedCorners.insert(crowdedCorners.end(), edge.begin(), edge.end());
+    }
   });
-  if (crowded == CrowdedEdge::kPairSheets && !joints.crowdedEdges.empty())
-    pairCrowdedEdges(mesh, edges, joints.adjacency);
+  if (crowdedCorners.empty()) return joints;
+  parallelSort(crowdedCorners);
+  forEachEdge(crowdedCorners, [&](std::span<const EdgeCorner> edge) {
+    joints.crowdedEdges.push_back(edge[0].corner);
+  });
+  if (crowded == CrowdedEdge::kSeparate) return joints;
+  EdgePairing pairing(mesh, joints.adjacency);
+  forEachEdge(crowdedCorners, [&](std::span<const EdgeCorner> edge) { pairing.pair(edge); });
   return joints;
 }
 
 std::vector<Index> splitFans(PolygonMesh& mesh, const Adjacency& joints) {
-  Forest fans = findFans(mesh, joints);
-  std::vector<bool> taken(mesh.pointCount(), false);
-  std::vector<std::pair<Index, Index>> further;  // (vertex, lowest corner of the fan)
-  for (Index c = 0; c < mesh.cornerCount(); ++c) {
-    if (fans.find(c) != c) continue;
-    const Index v = mesh.faceVertices[c];
-    if (taken[v]) further.emplace_back(v, c);
-    taken[v] = true;
-  }
-  if (further.empty()) return {};
+  const std::vector<SharedFan> further = furtherFans(mesh, joints);
   if (further.size() >= kNone - mesh.points.size())
     throw LimitError("repair would need 2^32 - 1 points or more");
-
-  std::sort(further.begin(), further.end());
-  std::vector<Index> newName(mesh.cornerCount(), kNone);  // slot: root of the fan
   std::vector<Index> copied;
-  for (const auto& [v, root] : further) {
-    newName[root] = mesh.pointCount();
+  for (const auto& [v, lowest] : further) {
+    for (const Index c : fanOf(mesh, joints, lowest)) mesh.faceVertices[c] = mesh.pointCount();
     mesh.points.push_back(Vec3d(mesh.points[v]));
     copied.push_back(v);
-  }
-  for (Index c = 0; c < mesh.cornerCount(); ++c) {
-    const Index name = newName[fans.find(c)];
-    if (name != kNone) mesh.faceVertices[c] = name;
   }
   return copied;
 }

@@ -35,7 +35,7 @@ enum class CrowdedEdge {
 /// joined. At an edge of more than 32 faces none are joined. Ties go to the lower faces. The result
 /// depends neither on the winding of the input nor on the first corner of a face.
 ///
-/// Cost O(C log C).
+/// Cost O(C log C). Parallel but for crowded edges.
 Joints joinFaces(const PolygonMesh& mesh, CrowdedEdge crowded);
 
 /// Gives every fan of faces around a vertex a vertex of its own. The fan with the lowest corner
@@ -44,7 +44,7 @@ Joints joinFaces(const PolygonMesh& mesh, CrowdedEdge crowded);
 /// @param joints  corners at a vertex belong to one fan if joined edges connect them
 /// @return        for each appended point, the point that it copies
 /// @throws LimitError  there would be 2^32 - 1 points or more
-/// Cost O(C log C) at worst.
+/// Parallel but for the vertices of several fans. Cost O(C log n) for fans of n corners.
 std::vector<Index> splitFans(PolygonMesh& mesh, const Adjacency& joints);
 
 }  // namespace vox

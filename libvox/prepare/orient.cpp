@@ -1,10 +1,12 @@
-// A breadth-first search over shared edges winds each component consistently; then each component
-// is turned as a whole.
+// Sets of the sides of faces tell how each component is wound consistently; then each component is
+// turned as a whole.
 
 #include "libvox/prepare/orient.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/forest.h"
 #include "libvox/core/numbered.h"
+#include "libvox/core/parallel.h"
 #include "libvox/prepare/enclosure.h"
 #include "libvox/prepare/face_order.h"
 #include "libvox/prepare/manifold.h"
@@ -13,6 +15,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace vox {
@@ -26,15 +29,15 @@ constexpr std::uint64_t kMostSearchSteps = 1'000'000'000;
 struct Component {
   std::size_t begin;
   std::size_t end;
-  Index asInput = 0;  // number of faces that are wound as in the input
+  Index against = 0;  ///< number of faces that are wound against the lowest one in the input
   bool boundary = false;
   bool oneSided = false;
 };
 
 struct Components {
-  std::vector<Index> faces;            // component after component, breadth-first from its lowest
-  std::vector<std::uint8_t> reversed;  // per face: wound against canonical form
-  std::vector<Component> list;         // by lowest face
+  std::vector<Index> faces;            ///< component after component, each in ascending order
+  std::vector<std::uint8_t> reversed;  ///< per face: wound against the lowest of its component
+  std::vector<Component> list;         ///< by lowest face
 
   std::span<const Index> facesOf(const Component& component) const {
     return std::span(faces).subspan(component.begin, component.end - component.begin);
@@ -45,62 +48,76 @@ std::span<Index> faceOf(PolygonMesh& mesh, Index f) {
   return {mesh.faceVertices.data() + mesh.faceOffsets[f], mesh.faceSize(f)};
 }
 
+/// Reverses a face, which still starts at its lowest vertex.
 void flip(std::span<Index> face) {
-  std::reverse(face.begin() + 1, face.end());  // still starts at its lowest vertex
+  std::reverse(face.begin() + 1, face.end());
 }
 
-/// Finds the components of a mesh in canonical form, and for each face whether it must be reversed
-/// to be wound like the first face of its component.
-class ComponentSearch {
- public:
-  ComponentSearch(const PolygonMesh& mesh, const Adjacency& joints)
-      : mesh_(mesh), joints_(joints), reached_(mesh.faceCount(), false) {
-    out_.reversed.assign(mesh.faceCount(), 0);
-  }
+/// Whether the faces at the edge of corner c are wound against each other.
+bool isAgainst(const PolygonMesh& mesh, const Adjacency& joints, Index c) {
+  return mesh.faceVertices[c] == mesh.faceVertices[joints.twin[c]];
+}
 
-  Components run() {
-    for (Index f = 0; f < mesh_.faceCount(); ++f)
-      if (!reached_[f]) out_.list.push_back(search(f));
-    return std::move(out_);
-  }
+/// The two sides of each face in sets: side 2 f is face f as it is wound, side 2 f + 1 is its
+/// reverse. Sides that continue each other across an edge are in one set. So the root of the sets
+/// of face f is 2 g or 2 g + 1, where g is the lowest face of the component; it is odd if f is
+/// wound against g. On a one-sided component both sides are in one set.
+Forest sidesOf(const PolygonMesh& mesh, const Adjacency& joints) {
+  Forest sides(std::size_t{2} * mesh.faceCount());
+  parallelForEach(mesh.cornerCount(), kElementsPerTask, [&](Index c) {
+    const Index t = joints.twin[c];
+    if (t == kNone || t < c) return;
+    const Index f = 2 * joints.cornerFace[c];
+    const Index g = 2 * joints.cornerFace[t];
+    const Index against = isAgainst(mesh, joints, c) ? 1 : 0;
+    sides.unite(f, g + against);
+    sides.unite(f + 1, g + (1 - against));
+  });
+  return sides;
+}
 
- private:
-  Component search(Index first) {
-    Component component{out_.faces.size(), out_.faces.size()};
-    reach(first, 0);
-    for (; component.end < out_.faces.size(); ++component.end)
-      visit(out_.faces[component.end], component);
-    return component;
-  }
+/// @param numbers  for each face, its component
+/// @param count    number of components
+std::vector<Index> sortedByComponent(const std::vector<Index>& numbers, std::size_t count,
+                                     std::vector<Component>& list) {
+  std::vector<Index> faces = numbered(numbers.size());
+  std::vector<std::size_t> place(count + 1, 0);
+  for (const Index n : numbers) ++place[n + 1];
+  std::partial_sum(place.begin(), place.end(), place.begin());
+  for (std::size_t n = 0; n < count; ++n) list.push_back({place[n], place[n + 1]});
+  if (count > 1)
+    for (Index f = 0; f < faces.size(); ++f) faces[place[numbers[f]]++] = f;
+  return faces;
+}
 
-  void reach(Index f, std::uint8_t reversed) {
-    reached_[f] = true;
-    out_.reversed[f] = reversed;
-    out_.faces.push_back(f);
+Components findComponents(const PolygonMesh& mesh, const Adjacency& joints) {
+  Forest sides = sidesOf(mesh, joints);
+  const Index faces = mesh.faceCount();
+  Components out;
+  out.reversed.resize(faces);
+  std::vector<Index> number(faces);  // first the lowest face, then the number of the component
+  std::vector<std::uint8_t> isOneSided(faces, 0);
+  std::vector<std::uint8_t> isOpen(faces, 0);
+  parallelForEach(faces, kElementsPerTask, [&](Index f) {
+    const Index root = sides.find(2 * f);
+    out.reversed[f] = root & 1U;
+    number[f] = root / 2;
+    isOneSided[f] = sides.find(2 * f + 1) == root;
+    const auto begin = joints.twin.begin() + mesh.faceOffsets[f];
+    const auto end = joints.twin.begin() + mesh.faceOffsets[f + 1];
+    isOpen[f] = std::find(begin, end, kNone) != end;
+  });
+  Index count = 0;
+  for (Index f = 0; f < faces; ++f) number[f] = number[f] == f ? count++ : number[number[f]];
+  out.faces = sortedByComponent(number, count, out.list);
+  for (Index f = 0; f < faces; ++f) {
+    Component& component = out.list[number[f]];
+    component.against += out.reversed[f];
+    component.boundary |= isOpen[f] != 0;
+    component.oneSided |= isOneSided[f] != 0;
   }
-
-  void visit(Index f, Component& component) {
-    for (Index c = mesh_.faceOffsets[f]; c < mesh_.faceOffsets[f + 1]; ++c) {
-      const Index t = joints_.twin[c];
-      if (t == kNone) {
-        component.boundary = true;
-        continue;
-      }
-      const bool sameDirection = mesh_.faceVertices[c] == mesh_.faceVertices[t];
-      const auto reversed = static_cast<std::uint8_t>(out_.reversed[f] ^ sameDirection);
-      const Index g = joints_.cornerFace[t];
-      if (!reached_[g])
-        reach(g, reversed);
-      else if (out_.reversed[g] != reversed)
-        component.oneSided = true;
-    }
-  }
-
-  const PolygonMesh& mesh_;
-  const Adjacency& joints_;
-  std::vector<bool> reached_;
-  Components out_;
-};
+  return out;
+}
 
 /// Finds out whether a component lies inside another, closed one.
 class CavitySearch {
@@ -143,23 +160,20 @@ class CavitySearch {
 };
 
 /// Whether a component must be turned so that most of its faces are wound as in the input. So far
-/// it is wound like its first face in canonical form.
-bool turnToMajority(const Component& component, bool firstAsInput) {
-  const std::size_t size = component.end - component.begin;
-  const std::size_t asInput = component.asInput;
-  return 2 * asInput == size ? !firstAsInput : 2 * asInput < size;
+/// it is wound like its lowest face, which decides a tie.
+bool turnToMajority(const Component& component) {
+  return std::size_t{2} * component.against > component.end - component.begin;
 }
 
 /// Whether a component must be turned, by all rules of orient.h. Counts cavities.
 bool mustTurn(const PolygonMesh& mesh, const Components& components, const Component& component,
-              bool firstAsInput, CavitySearch& cavities, OrientReport& report) {
-  const bool majority = turnToMajority(component, firstAsInput);
+              CavitySearch& cavities, OrientReport& report) {
+  const bool majority = turnToMajority(component);
   if (component.boundary || component.oneSided) return majority;
   const int sign = signedVolume(mesh, components.facesOf(component)).sign();
   if (sign == 0) return majority;
   const bool outward = sign < 0;
-  const std::size_t size = component.end - component.begin;
-  const bool consistent = component.asInput == 0 || component.asInput == size;
+  const bool consistent = component.against == 0;
   if (outward == majority || !consistent || !cavities.isInsideAnother(component)) return outward;
   ++report.cavities;
   return majority;
@@ -174,35 +188,58 @@ void countComponents(const Components& components, OrientReport& report) {
       ++(component.boundary ? report.openComponents : report.closedComponents);
 }
 
-/// Decides for each component whether it is turned, and winds all faces accordingly.
-void turnComponents(PolygonMesh& mesh, Components& components,
-                    const std::vector<std::uint8_t>& inputReversed, OrientReport& report) {
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-    if (components.reversed[f]) flip(faceOf(mesh, f));
-  for (Component& component : components.list)
-    for (const Index f : components.facesOf(component))
-      component.asInput += components.reversed[f] == inputReversed[f];
+/// Flips faces, and moves the joints to the new corners of their edges.
+void flipFaces(PolygonMesh& mesh, Adjacency& joints, const std::vector<std::uint8_t>& isFlipped) {
+  // In reverse, the corner before an edge is the one that was behind it.
+  const auto moved = [&](Index c) {
+    const Index f = joints.cornerFace[c];
+    if (!isFlipped[f]) return c;
+    const Index first = mesh.faceOffsets[f];
+    const Index last = mesh.faceOffsets[f + 1] - 1;
+    return first + (last - c);
+  };
+  std::vector<Index> twin(joints.twin.size());
+  parallelForEach(mesh.cornerCount(), kElementsPerTask, [&](Index c) {
+    const Index t = joints.twin[c];
+    twin[moved(c)] = t == kNone ? kNone : moved(t);
+  });
+  joints.twin = std::move(twin);
+  parallelForEach(mesh.faceCount(), kElementsPerTask, [&](Index f) {
+    if (isFlipped[f]) flip(faceOf(mesh, f));
+  });
+}
 
+/// Winds all faces of each component like its lowest one, then turns components as a whole.
+void turnComponents(PolygonMesh& mesh, Adjacency& joints, const Components& components,
+                    OrientReport& report) {
+  std::vector<std::uint8_t> flipped = components.reversed;
+  const auto flipThem = [&] {
+    if (std::find(flipped.begin(), flipped.end(), 1) != flipped.end())
+      flipFaces(mesh, joints, flipped);
+  };
+  flipThem();
   std::vector<std::uint8_t> turn;  // decided before any turn: cavities depend on other components
   CavitySearch cavities(mesh, components);
-  for (const Component& component : components.list) {
-    const Index first = components.faces[component.begin];
-    turn.push_back(mustTurn(mesh, components, component, !inputReversed[first], cavities, report));
-  }
+  for (const Component& component : components.list)
+    turn.push_back(mustTurn(mesh, components, component, cavities, report));
+  std::fill(flipped.begin(), flipped.end(), std::uint8_t{0});
   for (std::size_t k = 0; k < turn.size(); ++k)
-    for (const Index f : components.facesOf(components.list[k])) {
-      if (turn[k]) flip(faceOf(mesh, f));
-      if ((components.reversed[f] ^ turn[k]) == inputReversed[f]) continue;
-      ++report.flippedFaces;
-      report.firstFlipped = std::min(report.firstFlipped, f);
-    }
+    if (turn[k])
+      for (const Index f : components.facesOf(components.list[k])) flipped[f] = 1;
+  flipThem();
+  for (Index f = 0; f < mesh.faceCount(); ++f) {
+    if (components.reversed[f] == flipped[f]) continue;
+    ++report.flippedFaces;
+    report.firstFlipped = std::min(report.firstFlipped, f);
+  }
 }
 
 /// Adds the second side of one-sided components: every face once more, reversed.
 class DoubleCover {
  public:
-  DoubleCover(PolygonMesh& mesh, const Components& components, OrientReport& report)
-      : mesh_(mesh), report_(report), mirrorFace_(mesh.faceCount(), kNone) {
+  DoubleCover(PolygonMesh& mesh, Adjacency& joints, const Components& components,
+              OrientReport& report)
+      : mesh_(mesh), joints_(joints), report_(report) {
     for (const Component& component : components.list) {
       if (!component.oneSided) continue;
       for (const Index f : components.facesOf(component)) covered_.push_back(f);
@@ -213,11 +250,10 @@ class DoubleCover {
   void add() {
     if (covered_.empty()) return;
     requireRoom();
-    Adjacency joints = joinFaces(mesh_, CrowdedEdge::kSeparate).adjacency;
-    addMirrorFaces(joints);
+    addMirrorFaces();
     for (const Index f : covered_)
-      for (Index c = mesh_.faceOffsets[f]; c < mesh_.faceOffsets[f + 1]; ++c) joinCopies(c, joints);
-    for (const Index v : splitFans(mesh_, joints)) report_.pointOrigin.push_back(v);
+      for (Index c = mesh_.faceOffsets[f]; c < mesh_.faceOffsets[f + 1]; ++c) joinCopies(c);
+    for (const Index v : splitFans(mesh_, joints_)) report_.pointOrigin.push_back(v);
   }
 
  private:
@@ -229,38 +265,40 @@ class DoubleCover {
           "the double cover of a one-sided surface would have 2^32 - 1 corners or more");
   }
 
-  void addMirrorFaces(Adjacency& joints) {
+  void addMirrorFaces() {
+    mirrorFace_.assign(mesh_.faceCount(), kNone);
     for (const Index f : covered_) {
       mirrorFace_[f] = mesh_.faceCount();
       const auto face = mesh_.face(f);
       std::vector<Index> mirrored(face.begin(), face.end());
       flip(mirrored);
-      joints.twin.resize(joints.twin.size() + mirrored.size(), kNone);
-      joints.cornerFace.resize(joints.twin.size(), mirrorFace_[f]);
+      joints_.twin.resize(joints_.twin.size() + mirrored.size(), kNone);
+      joints_.cornerFace.resize(joints_.twin.size(), mirrorFace_[f]);
       mesh_.addFace(mirrored);
       report_.faceOrigin.push_back(f);
     }
   }
 
   /// The corner of the mirrored face on the edge of corner c.
-  Index mirrorOf(Index c, const Adjacency& joints) const {
-    const Index f = joints.cornerFace[c];
+  Index mirrorOf(Index c) const {
+    const Index f = joints_.cornerFace[c];
     return mesh_.faceOffsets[mirrorFace_[f] + 1] - 1 - (c - mesh_.faceOffsets[f]);
   }
 
   /// Joins edge c and its mirror image to the neighbour's edge and its mirror image; crosswise if
   /// the neighbour is wound against the face of c. Writes the twins of c and its image only.
-  void joinCopies(Index c, Adjacency& joints) const {
-    const Index t = joints.twin[c];
+  void joinCopies(Index c) {
+    const Index t = joints_.twin[c];
     if (t == kNone) return;
-    const bool crosswise = mesh_.faceVertices[c] == mesh_.faceVertices[t];
-    const Index tMirror = mirrorOf(t, joints);
-    const Index cMirror = mirrorOf(c, joints);
-    joints.twin[c] = crosswise ? tMirror : t;
-    joints.twin[cMirror] = crosswise ? t : tMirror;
+    const bool crosswise = isAgainst(mesh_, joints_, c);
+    const Index tMirror = mirrorOf(t);
+    const Index cMirror = mirrorOf(c);
+    joints_.twin[c] = crosswise ? tMirror : t;
+    joints_.twin[cMirror] = crosswise ? t : tMirror;
   }
 
   PolygonMesh& mesh_;
+  Adjacency& joints_;
   OrientReport& report_;
   std::vector<Index> covered_;
   std::vector<Index> mirrorFace_;
@@ -282,20 +320,23 @@ std::string summary(const OrientReport& report) {
          std::to_string(report.oneSided[0]) + ")";
 }
 
-PolygonMesh orient(PolygonMesh mesh, OrientReport& report) {
+PolygonMesh orient(PolygonMesh mesh, Adjacency joints, OrientReport& report) {
   report = OrientReport{};
   report.secondSide = mesh.faceCount();
   report.pointOrigin = numbered(mesh.pointCount());
   report.faceOrigin = numbered(mesh.faceCount());
-
-  const auto inputReversed = canonicalizeFaces(mesh);
-  const Adjacency joints = joinFaces(mesh, CrowdedEdge::kSeparate).adjacency;
-  Components components = ComponentSearch(mesh, joints).run();
+  const Components components = findComponents(mesh, joints);
   countComponents(components, report);
-  turnComponents(mesh, components, inputReversed, report);
-  DoubleCover(mesh, components, report).add();
-  for (Index f = 0; f < mesh.faceCount(); ++f) startAtLowest(faceOf(mesh, f));
+  turnComponents(mesh, joints, components, report);
+  DoubleCover(mesh, joints, components, report).add();
+  report.adjacency = std::move(joints);
   return mesh;
+}
+
+PolygonMesh orient(PolygonMesh mesh, OrientReport& report) {
+  startFacesAtLowest(mesh);
+  Adjacency joints = joinFaces(mesh, CrowdedEdge::kSeparate).adjacency;
+  return orient(std::move(mesh), std::move(joints), report);
 }
 
 }  // namespace vox

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/polygon_mesh.h"
 
 #include <string>
@@ -21,6 +22,7 @@ struct OrientReport {
   Index secondSide = 0;
   std::vector<Index> pointOrigin;  ///< input point of each point of the output
   std::vector<Index> faceOrigin;   ///< input face of each face of the output
+  Adjacency adjacency;             ///< of the output
 };
 
 /// Summary in one line: "flipped 12 faces, doubled 1 one-sided component (face 0)"; empty if
@@ -53,7 +55,12 @@ std::string summary(const OrientReport& report);
 /// the end.
 ///
 /// @throws LimitError  a double cover would have 2^32 - 1 corners or more
-/// Cost O(C log C) besides the search for cavities. Source: paper section 8.
+/// Cost O(C log C) besides the search for cavities. Parallel in part; result independent of thread
+/// count. Source: paper section 8.
 PolygonMesh orient(PolygonMesh mesh, OrientReport& report);
+
+/// The same, if the faces start at their lowest vertices and the joints of the mesh are known.
+/// @param joints  as joinFaces(mesh, CrowdedEdge::kSeparate) finds them
+PolygonMesh orient(PolygonMesh mesh, Adjacency joints, OrientReport& report);
 
 }  // namespace vox

@@ -15,6 +15,7 @@
 #include "libvox/prepare/weld.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -46,21 +47,30 @@ void note(RepairReport& report, RepairKind kind, Index element, Message&& messag
   action.message = message();
 }
 
-std::vector<bool> usedPoints(const PolygonMesh& mesh) {
-  std::vector<bool> used(mesh.pointCount(), false);
-  for (const Index v : mesh.faceVertices) used[v] = true;
+/// For each point, whether a face uses it.
+std::vector<std::uint8_t> usedPoints(const PolygonMesh& mesh) {
+  std::vector<std::uint8_t> used(mesh.pointCount(), 0);
+  parallelForEach(mesh.cornerCount(), kElementsPerTask, [&](Index c) {
+    std::atomic_ref<std::uint8_t> mark(used[mesh.faceVertices[c]]);
+    if (mark.load(std::memory_order_relaxed) == 0) mark.store(1, std::memory_order_relaxed);
+  });
   return used;
 }
 
 void weld(Draft& draft, double tolerance, RepairReport& report) {
-  report.weldedTo = weldTargets(draft.mesh.points, usedPoints(draft.mesh), tolerance);
-  for (Index v = 0; v < draft.mesh.pointCount(); ++v) {
-    const Index to = report.weldedTo[v];
-    if (to != v)
+  std::vector<Index>& weldedTo = report.weldedTo;
+  weldedTo = weldTargets(draft.mesh.points, usedPoints(draft.mesh), tolerance);
+  const Index count = draft.mesh.pointCount();
+  const Index first =
+      lowestWhere(count, kElementsPerTask, [&](Index v) { return weldedTo[v] != v; });
+  if (first == count) return;
+  for (Index v = first; v < count; ++v)
+    if (weldedTo[v] != v)
       note(report, RepairKind::kWeldedVertex, v,
-           [&] { return "welded vertex " + str(v) + " to vertex " + str(to); });
-  }
-  for (Index& v : draft.mesh.faceVertices) v = report.weldedTo[v];
+           [&] { return "welded vertex " + str(v) + " to vertex " + str(weldedTo[v]); });
+  parallelForEach(draft.mesh.cornerCount(), kElementsPerTask, [&](Index c) {
+    draft.mesh.faceVertices[c] = weldedTo[draft.mesh.faceVertices[c]];
+  });
 }
 
 void noteCleaning(Index f, Index loops, bool repeats, RepairReport& report) {
@@ -81,7 +91,24 @@ void countSplit(FaceSplit& split, Index f, std::size_t parts) {
   split.parts += parts;
 }
 
+/// Whether a face has a vertex twice.
+bool hasRepeats(std::span<const Index> face) {
+  constexpr std::size_t kFew = 16;
+  if (face.size() > kFew) {
+    std::vector<Index> sorted(face.begin(), face.end());
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+  }
+  for (std::size_t i = 1; i < face.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (face[i] == face[j]) return true;
+  return false;
+}
+
 void cleanFaces(Draft& draft, RepairReport& report) {
+  const Index faces = draft.mesh.faceCount();
+  const auto mustBeCleaned = [&](Index f) { return hasRepeats(draft.mesh.face(f)); };
+  if (lowestWhere(faces, kElementsPerTask, mustBeCleaned) == faces) return;
   PolygonMesh clean;
   std::vector<Index> faceOrigin;
   LoopCutter cutter(draft.mesh.pointCount());
@@ -112,7 +139,23 @@ void cleanFaces(Draft& draft, RepairReport& report) {
   draft.faceOrigin = std::move(faceOrigin);
 }
 
-void dropDuplicates(Draft& draft, RepairReport& report) {
+/// Whether there may be duplicate faces. Each edge of such a face has three faces or more, or its
+/// two faces are the duplicates.
+bool mayHaveDuplicates(const PolygonMesh& mesh, const Joints& joints) {
+  if (!joints.crowdedEdges.empty()) return true;
+  const auto& [twin, cornerFace] = joints.adjacency;
+  const auto hasOneNeighbour = [&](Index f) {
+    const Index first = twin[mesh.faceOffsets[f]];
+    if (first == kNone) return false;
+    for (Index c = mesh.faceOffsets[f]; c < mesh.faceOffsets[f + 1]; ++c)
+      if (twin[c] == kNone || cornerFace[twin[c]] != cornerFace[first]) return false;
+    return true;
+  };
+  return lowestWhere(mesh.faceCount(), kElementsPerTask, hasOneNeighbour) < mesh.faceCount();
+}
+
+/// @return whether there were duplicate faces
+bool dropDuplicates(Draft& draft, RepairReport& report) {
   const std::vector<Index> first = firstAlike(draft.mesh);
   PolygonMesh kept;
   std::vector<Index> faceOrigin;
@@ -128,9 +171,19 @@ void dropDuplicates(Draft& draft, RepairReport& report) {
              str(draft.faceOrigin[first[f]]);
     });
   }
+  const bool dropped = kept.faceCount() < draft.mesh.faceCount();
   kept.points = std::move(draft.mesh.points);
   draft.mesh = std::move(kept);
   draft.faceOrigin = std::move(faceOrigin);
+  return dropped;
+}
+
+/// Joins the faces, without duplicates.
+Joints joinDistinctFaces(Draft& draft, RepairReport& report) {
+  startFacesAtLowest(draft.mesh);
+  Joints joints = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
+  if (!mayHaveDuplicates(draft.mesh, joints) || !dropDuplicates(draft, report)) return joints;
+  return joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
 }
 
 /// For each face, whether it is to be split: it is not star-shaped, or not convex. Parallel.
@@ -197,8 +250,7 @@ Joints stitch(Draft& draft, Joints joints, double tolerance, RepairReport& repor
     noteStitches(draft, joints.adjacency, added, report);
     draft.mesh = withEdgeVertices(draft.mesh, added);
     cleanFaces(draft, report);
-    dropDuplicates(draft, report);
-    joints = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
+    joints = joinDistinctFaces(draft, report);
   }
   return joints;
 }
@@ -274,8 +326,8 @@ void noteChords(Draft& draft, const ChordResult& chords, RepairReport& report) {
 
 /// @return whether any vertex was chorded
 bool chord(Draft& draft, const Adjacency& joints, RepairReport& report) {
+  if (!hasInteriorPair(draft.mesh, joints)) return false;
   ChordResult chords = chordInteriorPairs(draft.mesh, joints);
-  if (chords.chordedVertices.empty()) return false;
   noteChords(draft, chords, report);
   draft.mesh = std::move(chords.mesh);
   for (Index& f : chords.faceOrigin) f = draft.faceOrigin[f];
@@ -285,23 +337,25 @@ bool chord(Draft& draft, const Adjacency& joints, RepairReport& report) {
 
 /// Chording can leave concave faces, and splitting can end at vertices of two faces. So both are
 /// done in each round.
-void makeManifold(Draft& draft, const RepairOptions& options, RepairReport& report) {
-  dropDuplicates(draft, report);
-  Joints sheets = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
+/// @return  the joints of the result
+Adjacency makeManifold(Draft& draft, const RepairOptions& options, RepairReport& report) {
+  Joints sheets = joinDistinctFaces(draft, report);
   if (options.weld) sheets = stitch(draft, std::move(sheets), options.weldTolerance, report);
   for (int round = 0; round < kMostRounds; ++round) {
-    if (options.faces == FaceRule::kSplit && splitConcaveFaces(draft, options.allConvex, report)) {
-      dropDuplicates(draft, report);
-      sheets = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
-    }
-    if (!chord(draft, cutIntoSheets(draft, std::move(sheets), report), report)) return;
-    dropDuplicates(draft, report);
-    sheets = joinFaces(draft.mesh, CrowdedEdge::kPairSheets);
+    if (options.faces == FaceRule::kSplit && splitConcaveFaces(draft, options.allConvex, report))
+      sheets = joinDistinctFaces(draft, report);
+    const bool crowded = !sheets.crowdedEdges.empty();
+    Adjacency joints = cutIntoSheets(draft, std::move(sheets), report);
+    if (chord(draft, joints, report))
+      sheets = joinDistinctFaces(draft, report);
+    else
+      return crowded ? joinFaces(draft.mesh, CrowdedEdge::kSeparate).adjacency : std::move(joints);
   }
   Adjacency joints = cutIntoSheets(draft, std::move(sheets), report);
   openInteriorPairs(draft.mesh, joints);
   const auto copied = splitFans(draft.mesh, joints);
   noteCopies(draft, copied, std::vector<bool>(draft.mesh.pointCount(), false), report);
+  return joinFaces(draft.mesh, CrowdedEdge::kSeparate).adjacency;
 }
 
 /// Counts the vertices of the input that are not in the output, except welded and chorded ones, and
@@ -316,7 +370,8 @@ void noteRemoved(const Draft& draft, RepairReport& report) {
 }
 
 void removeUnused(Draft& draft) {
-  const std::vector<bool> used = usedPoints(draft.mesh);
+  const std::vector<std::uint8_t> used = usedPoints(draft.mesh);
+  if (std::find(used.begin(), used.end(), 0) == used.end()) return;
   std::vector<Index> newName(draft.mesh.pointCount(), kNone);
   Index kept = 0;
   for (Index v = 0; v < newName.size(); ++v) {
@@ -347,7 +402,7 @@ PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport&
 
   if (options.weld) weld(draft, options.weldTolerance, report);
   cleanFaces(draft, report);
-  makeManifold(draft, options, report);
+  report.joints = makeManifold(draft, options, report);
   removeUnused(draft);
   if (options.noteUnused) noteRemoved(draft, report);
   report.pointOrigin = std::move(draft.pointOrigin);

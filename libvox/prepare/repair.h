@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/options/smoothing_options.h"
 #include "libvox/prepare/convex_faces.h"
@@ -59,6 +60,7 @@ struct RepairReport {
   FaceSplitReport faces;           ///< split faces: no change in the sense of changed()
   std::vector<Index> pointOrigin;  ///< input point of each point of the output
   std::vector<Index> faceOrigin;   ///< input face of each face of the output
+  Adjacency joints;                ///< joined edges of the output, as joinFaces finds them
   std::vector<Index> weldedTo;     ///< for each input point, the one it was welded to, or itself
 
   const RepairAction& operator[](RepairKind kind) const {
@@ -91,9 +93,9 @@ std::string summary(const RepairReport& report);
 /// connect their neighbours.
 ///
 /// Colours are dropped; soundMesh (sound.h) keeps them. Vertices and faces keep their order; copies
-/// follow at the end, in the order of their originals. A face without faults keeps its corners as
-/// they are. The winding of faces does not matter. Copies lie at the place of their original, so a
-/// second run that neither welds nor splits changes nothing.
+/// follow at the end, in the order of their originals. A face starts at its lowest vertex. The
+/// winding of faces does not matter. Copies lie at the place of their original, so a second run
+/// that neither welds nor splits changes nothing.
 ///
 /// @throws MeshError   the arrays are not valid (requireValidArrays)
 /// @throws UsageError  the tolerance is negative or not finite

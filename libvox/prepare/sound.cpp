@@ -47,7 +47,8 @@ PolygonMesh soundMesh(PolygonMesh mesh, const RepairOptions& options, SoundRepor
   requireValidArrays(mesh);
   const std::vector<Vec3f> pointColors = std::exchange(mesh.pointColors, {});
   const std::vector<Vec3f> faceColors = std::exchange(mesh.faceColors, {});
-  mesh = orient(repair(std::move(mesh), options, report.repair), report.orient);
+  mesh = repair(std::move(mesh), options, report.repair);
+  mesh = orient(std::move(mesh), std::move(report.repair.joints), report.orient);
   nameInputElements(report.orient, report.repair);
   mesh.pointColors =
       followed(meanOfWelded(pointColors, report.repair.weldedTo), report.orient.pointOrigin);

@@ -7,7 +7,8 @@
 
 namespace vox {
 
-/// Changes that soundMesh made. Both parts name elements of the input, also as origins.
+/// Changes that soundMesh made. Both parts name elements of the input, also as origins. The joints
+/// of `repair` are used up.
 struct SoundReport {
   RepairReport repair;
   OrientReport orient;

@@ -1,36 +1,100 @@
-// Equal points are found by sorting; near points by a grid of cells as wide as the tolerance. The
-// points that stay are further apart than the tolerance, so a cell holds only a few of them.
+// Equal points are found by sorting their hashes, bucket by bucket; near points by a grid of cells
+// as wide as the tolerance. The points that stay are further apart than the tolerance, so a cell
+// holds only a few of them.
 
 #include "libvox/prepare/weld.h"
 
+#include "libvox/core/buckets.h"
 #include "libvox/core/error.h"
 #include "libvox/core/numbered.h"
 #include "libvox/core/parallel.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <unordered_map>
 
 namespace vox {
 namespace {
 
-std::vector<Index> weldEqual(const std::vector<Vec3d>& points, const std::vector<bool>& used) {
-  std::vector<Index> order;
-  for (Index v = 0; v < points.size(); ++v)
-    if (used[v]) order.push_back(v);
-  const auto before = [&](Index a, Index b) {
-    const Vec3d& p = points[a];
-    const Vec3d& q = points[b];
+/// 32 bits that equal points share.
+std::uint32_t hashOf(const Vec3d& point) {
+  std::uint64_t hash = 0;
+  for (const double x : point) {
+    hash ^= std::bit_cast<std::uint64_t>(x + 0.0);  // + 0 turns -0 into +0
+    hash *= 0x9e3779b97f4a7c15ULL;
+    hash ^= hash >> 32U;
+  }
+  return static_cast<std::uint32_t>(hash);
+}
+
+/// A point, and its hash in the upper half.
+using HashedPoint = std::uint64_t;
+
+Index pointOf(HashedPoint hashed) {
+  return static_cast<Index>(hashed);
+}
+
+/// Welds equal points among those of one hash.
+void weldAlike(const std::vector<Vec3d>& points, std::span<HashedPoint> alike,
+               std::vector<Index>& target) {
+  const auto before = [&](HashedPoint a, HashedPoint b) {
+    const Vec3d& p = points[pointOf(a)];
+    const Vec3d& q = points[pointOf(b)];
     for (int axis = 0; axis < 3; ++axis)
       if (p[axis] != q[axis]) return p[axis] < q[axis];
     return a < b;
   };
-  parallelSort(order, before);
+  std::sort(alike.begin(), alike.end(), before);
+  for (std::size_t k = 1; k < alike.size(); ++k)
+    if (points[pointOf(alike[k])] == points[pointOf(alike[k - 1])])
+      target[pointOf(alike[k])] = target[pointOf(alike[k - 1])];
+}
 
+/// Whether two of the hashes are equal. A table of open addresses.
+bool haveRepeats(std::span<const HashedPoint> hashed) {
+  const std::size_t slots = std::bit_ceil(2 * hashed.size() + 1);
+  std::vector<std::uint64_t> table(slots, 0);  // 0: free
+  for (const HashedPoint point : hashed) {
+    const std::uint64_t key = (point >> 32U) + 1;
+    std::size_t slot = (key * 0x9e3779b97f4a7c15ULL >> 32U) & (slots - 1);
+    for (; table[slot] != 0; slot = (slot + 1) & (slots - 1))
+      if (table[slot] == key) return true;
+    table[slot] = key;
+  }
+  return false;
+}
+
+/// Welds equal points among those of a bucket.
+void weldBucket(const std::vector<Vec3d>& points, std::span<const HashedPoint> bucket,
+                std::vector<Index>& target) {
+  if (!haveRepeats(bucket)) return;
+  std::vector<HashedPoint> sorted(bucket.begin(), bucket.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto differ = [](HashedPoint a, HashedPoint b) { return a >> 32U != b >> 32U; };
+  for (auto first = sorted.begin(); first != sorted.end();) {
+    const auto last = std::find_if(first + 1, sorted.end(),
+                                   [&](HashedPoint other) { return differ(*first, other); });
+    if (last - first > 1) weldAlike(points, {first, last}, target);
+    first = last;
+  }
+}
+
+std::vector<Index> weldEqual(const std::vector<Vec3d>& points,
+                             const std::vector<std::uint8_t>& used) {
+  constexpr std::size_t kPointsPerBucket = 2048;
   std::vector<Index> target = numbered(points.size());
-  for (std::size_t k = 1; k < order.size(); ++k)
-    if (points[order[k]] == points[order[k - 1]]) target[order[k]] = target[order[k - 1]];
+  const auto count = static_cast<Index>(points.size() / kPointsPerBucket + 1);
+  const Buckets<HashedPoint> buckets(static_cast<Index>(points.size()), count,
+                                     [&](Index v, auto&& put) {
+                                       if (!used[v]) return;
+                                       const std::uint32_t hash = hashOf(points[v]);
+                                       put(hash % count, HashedPoint{hash} << 32U | v);
+                                     });
+  parallelForEach(count, 1, [&](Index b) { weldBucket(points, buckets[b], target); });
   return target;
 }
 
@@ -86,7 +150,7 @@ class NearPoints {
   std::unordered_map<Cell, std::vector<Index>, CellHash> cells_;
 };
 
-std::vector<Index> weldNear(const std::vector<Vec3d>& points, const std::vector<bool>& used,
+std::vector<Index> weldNear(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>& used,
                             double tolerance) {
   std::vector<Index> target = numbered(points.size());
   NearPoints stayed(points, tolerance);
@@ -103,8 +167,8 @@ std::vector<Index> weldNear(const std::vector<Vec3d>& points, const std::vector<
 
 }  // namespace
 
-std::vector<Index> weldTargets(const std::vector<Vec3d>& points, const std::vector<bool>& used,
-                               double tolerance) {
+std::vector<Index> weldTargets(const std::vector<Vec3d>& points,
+                               const std::vector<std::uint8_t>& used, double tolerance) {
   if (!std::isfinite(tolerance) || tolerance < 0)
     throw UsageError("the weld tolerance (--weld) must be a finite distance, 0 or more");
   return tolerance == 0 ? weldEqual(points, used) : weldNear(points, used, tolerance);

@@ -2,6 +2,7 @@
 
 #include "libvox/core/types.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace vox {
@@ -15,9 +16,9 @@ namespace vox {
 /// stays if there is none. So welds never chain: no point moves further than the tolerance, and
 /// points that stay are further apart than it. The result does not depend on thread count.
 ///
-/// Cost O(V log V); with a tolerance O(V) expected.
+/// Cost O(V log V), parallel; with a tolerance O(V) expected.
 /// @throws UsageError  the tolerance is negative or not finite
-std::vector<Index> weldTargets(const std::vector<Vec3d>& points, const std::vector<bool>& used,
-                               double tolerance);
+std::vector<Index> weldTargets(const std::vector<Vec3d>& points,
+                               const std::vector<std::uint8_t>& used, double tolerance);
 
 }  // namespace vox

@@ -229,11 +229,17 @@ void requireFits(std::uint64_t corners) {
 
 SubdivisionLevel baseLevel(PolygonMesh mesh, BoundaryRule rule) {
   requireValidArrays(mesh);
-  SubdivisionLevel level{std::move(mesh), {}, BoundaryStage::kPlain};
-  level.adjacency = buildAdjacency(level.mesh);
-  requireManifold(level.mesh, level.adjacency);
+  Adjacency adjacency = buildAdjacency(mesh);
+  requireManifold(mesh, adjacency);
+  return baseLevel(std::move(mesh), std::move(adjacency), rule);
+}
+
+SubdivisionLevel baseLevel(PolygonMesh mesh, Adjacency adjacency, BoundaryRule rule) {
+  SubdivisionLevel level{std::move(mesh), std::move(adjacency), BoundaryStage::kPlain};
   const auto& twin = level.adjacency.twin;
-  const bool open = std::find(twin.begin(), twin.end(), kNone) != twin.end();
+  const Index corners = level.mesh.cornerCount();
+  const bool open =
+      lowestWhere(corners, kCornersPerTask, [&](Index c) { return twin[c] == kNone; }) < corners;
   if (open && rule != BoundaryRule::kFree) level.boundary = BoundaryStage::kExtend;
   return level;
 }

@@ -13,6 +13,10 @@ namespace vox {
 /// @throws MeshError  the mesh is not an oriented manifold, with or without boundary
 SubdivisionLevel baseLevel(PolygonMesh mesh, BoundaryRule rule = BoundaryRule::kExtend);
 
+/// The same for a mesh that is known to be an oriented manifold with this adjacency.
+SubdivisionLevel baseLevel(PolygonMesh mesh, Adjacency adjacency,
+                           BoundaryRule rule = BoundaryRule::kExtend);
+
 /// The next level.
 ///
 /// Its faces are, in this order: one F-face per face (which keeps its corner numbers: corner c of

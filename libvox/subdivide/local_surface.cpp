@@ -117,6 +117,7 @@ void LocalSurface::emitFace(const SubmeshCorner& first, FineVertices& fine) {
   const double contractionHere = std::max(contraction(first.size), contraction(4));
   for (Index i = 0; i < first.size; ++i) {
     const SubmeshCorner at = first.at(i);
+    if (!leftOut_.empty() && leftOut_[images.base().mesh.faceVertices[at.number]]) continue;
     if (images.isRegular(at)) {
       fine.regular(images.around(at), 1, {});
       continue;

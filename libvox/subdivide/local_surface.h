@@ -3,6 +3,7 @@
 #include "libvox/mesh/patch.h"
 #include "libvox/subdivide/local_vertices.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,10 @@ class LocalSurface {
   /// @throws LimitError  coordinates are out of range
   void emit(std::span<const Index> faces, SurfaceSink& sink);
 
+  /// Leaves out what the corners at some vertices of the base own.
+  /// @param vertices  for each vertex of the base, whether it is left out; must outlive this object
+  void leaveOut(std::span<const std::uint8_t> vertices) { leftOut_ = vertices; }
+
  private:
   class FineVertices;
 
@@ -38,6 +43,7 @@ class LocalSurface {
   void emitBoundary(const SubmeshCorner& first, SurfaceSink& sink);
 
   LocalVertices vertices_;
+  std::span<const std::uint8_t> leftOut_;
   std::vector<std::vector<Vec3d>> finished_;  // vertices that are fine enough, by level
 };
 
