@@ -37,7 +37,7 @@ char* copyMask(const Mask& mask, char* to) {
 }
 
 /// Of a part, about; small enough for the memory, large enough for fast writing to a file.
-constexpr std::size_t kBytesOfPart = 384 * 1024;
+constexpr std::size_t kBytesOfPart = 256 * 1024;
 
 /// Calls write(element, to) for all elements. Parts are runs of elements whose estimated bytes,
 /// without the last element's, are less than those of a part.
@@ -58,7 +58,7 @@ void writeRuns(std::ostream& stream, const std::vector<Element>& elements, const
 }
 
 /// How values are written to a stream.
-struct Format {
+struct ValueFormat {
   openvdb::io::StreamMetadata metadata;  ///< compression, background
   bool half;
 };
@@ -66,7 +66,7 @@ struct Format {
 /// A stream for OpenVDB's own functions.
 class PartStream : public std::ostream {
  public:
-  PartStream(PartBytes& to, const Format& format) : std::ostream(&to) {
+  PartStream(PartBytes& to, const ValueFormat& format) : std::ostream(&to) {
     exceptions(std::ios::badbit);  // otherwise bad_alloc would be lost, and bytes missing
     auto metadata = std::make_shared<openvdb::io::StreamMetadata>(format.metadata);
     openvdb::io::setStreamMetadataPtr(*this, metadata);
@@ -98,7 +98,7 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
       for (auto lower = upper->cbeginChildOn(); lower; ++lower)
         nodes.push_back({{}, nullptr, &*lower});
     }
-    const Format format = formatOf(stream);
+    const ValueFormat format = formatOf(stream);
     const PartBytes noTiles = valuesWithoutTiles(format);
     const auto bytesOf = [](const Node& node) {
       return node.lower == nullptr ? kBytesOfPart : bytesOfMasks(*node.lower);
@@ -147,8 +147,8 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
 
   const Root& root() const { return this->constTree().root(); }
 
-  Format formatOf(std::ostream& stream) const {
-    Format format{openvdb::io::StreamMetadata(stream), this->saveFloatAsHalf()};
+  ValueFormat formatOf(std::ostream& stream) const {
+    ValueFormat format{openvdb::io::StreamMetadata(stream), this->saveFloatAsHalf()};
     format.metadata.setBackgroundPtr(&root().background());
     return format;
   }
@@ -167,7 +167,7 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
     }
   }
 
-  static void writeUpper(const Upper& node, const openvdb::Coord& origin, const Format& format,
+  static void writeUpper(const Upper& node, const openvdb::Coord& origin, const ValueFormat& format,
                          PartBytes& to) {
     PartStream stream(to, format);
     writePlain(stream, origin);
@@ -181,7 +181,7 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
   }
 
   /// @param noTiles  of valuesWithoutTiles
-  void writeLower(const Lower& node, std::span<const char> noTiles, const Format& format,
+  void writeLower(const Lower& node, std::span<const char> noTiles, const ValueFormat& format,
                   PartBytes& to) const {
     if (noTiles.empty() || !hasNoTiles(node)) {
       PartStream stream(to, format);
@@ -213,7 +213,7 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
 
   /// The values of a lower node that has no tiles, as OpenVDB writes them: they do not depend on
   /// which children it has. Empty if they do, for want of compression by masks.
-  PartBytes valuesWithoutTiles(const Format& format) const {
+  PartBytes valuesWithoutTiles(const ValueFormat& format) const {
     PartBytes bytes;
     if ((format.metadata.compression() & openvdb::io::COMPRESS_ACTIVE_MASK) == 0) return bytes;
     PartStream stream(bytes, format);
@@ -242,7 +242,7 @@ class ParallelGrid : public openvdb::Grid<TreeT> {
   void writeValuesOfLeaves(std::ostream& stream) const {
     std::vector<const Leaf*> leaves;
     this->constTree().getNodes(leaves);
-    const Format format = formatOf(stream);
+    const ValueFormat format = formatOf(stream);
     constexpr std::size_t kLeaves = kBytesOfPart / (Leaf::SIZE * sizeof(Value));
     writeInOrder(stream, (leaves.size() + kLeaves - 1) / kLeaves,
                  [&](std::size_t i, PartBytes& to) {

@@ -71,7 +71,7 @@ std::size_t readBlock(std::istream& stream, Block& block) {
 /// Hash of the whole stream, with zeros in place of the UUID.
 std::string contentHash(std::istream& stream) {
   ContentHash hash;
-  Block block(1 << 20);
+  Block block(1 << 18);
   Block next(block.size());
   stream.seekg(0);
   std::size_t size = readBlock(stream, block);
