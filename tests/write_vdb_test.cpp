@@ -56,6 +56,51 @@ std::vector<openvdb::GridBase::Ptr> gridsOfManyLeaves() {
   return {mask, distance, half, normal, id};
 }
 
+/// A grid whose internal nodes have tiles of all kinds: none, inactive ones of one, two and more
+/// values, active ones, and all of these; at every level, beside leaves.
+template <class GridT>
+openvdb::GridBase::Ptr gridOfTiles(const std::vector<typename GridT::ValueType>& values,
+                                   bool half) {
+  auto grid = GridT::create(values.front());
+  auto& tree = grid->tree();
+  const int kinds = static_cast<int>(values.size());
+  for (int level = 1; level <= 3; ++level) {
+    const int side = level == 1 ? 8 : level == 2 ? 128 : 4096;     // of a tile
+    const int node = level == 1 ? 128 : level == 2 ? 4096 : 8192;  // of what holds it
+    for (int kind = 0; kind <= kinds; ++kind)
+      for (const bool active : {false, true})
+        for (int i = 0; i < kind; ++i)
+          tree.addTile(
+              static_cast<openvdb::Index>(level),
+              {-20000 + node * kind + side, 20000 * level + (active ? 2 * node : 0), i * side},
+              values[static_cast<std::size_t>(i)], active);
+  }
+  for (int i = 0; i < 3000; ++i) {
+    const openvdb::Coord at(i * 37 % 1000, 20000 + i * 11 % 500, i * 7 - 9000);
+    tree.setValue(at, values[static_cast<std::size_t>(i % kinds)]);
+    tree.setValueOff(at.offsetBy(0, 0, 1), values[static_cast<std::size_t>(i / 7 % kinds)]);
+  }
+  tree.touchLeaf({-5000, -5000, -5000});  // without active voxels
+  grid->setSaveFloatAsHalf(half);
+  return grid;
+}
+
+/// Every type of grid that is written in parallel.
+std::vector<openvdb::GridBase::Ptr> gridsOfTiles() {
+  using openvdb::Vec3s;
+  std::vector<openvdb::GridBase::Ptr> grids;
+  for (const bool half : {false, true}) {
+    grids.push_back(gridOfTiles<openvdb::MaskGrid>({false, true}, half));
+    grids.push_back(gridOfTiles<openvdb::FloatGrid>({0.1F, -0.1F, 2.3F, 0, 1e9F}, half));
+    grids.push_back(gridOfTiles<openvdb::Int32Grid>({-1, 1, 7, 0, 1 << 30}, half));
+    grids.push_back(gridOfTiles<openvdb::Vec3SGrid>(
+        {Vec3s(0.1F, 0, 0), Vec3s(-0.1F, 0, 0), Vec3s(0, 0, 1), Vec3s(3, 1 / 3.0F, 1)}, half));
+  }
+  for (const auto& grid : std::vector(grids)) grids.push_back(grid->copyGridWithNewTree());
+  for (auto& grid : grids) grid->setName(grid->type());
+  return grids;
+}
+
 std::string bytesOf(const std::vector<openvdb::GridBase::Ptr>& grids,
                     std::optional<Compression> compression = {}) {
   std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
@@ -99,9 +144,12 @@ TEST_CASE("OpenVDB reads back every voxel and the UUID", "[io]") {
 TEST_CASE("grids have the bytes that OpenVDB alone would write", "[io][parallel]") {
   openvdb::initialize();
   const auto withoutUuid = [](std::string bytes) { return bytes.replace(21, 36, 36, '-'); };
+  auto grids = gridsOfManyLeaves();
+  for (const auto& grid : gridsOfTiles()) grids.push_back(grid);
   for (const auto compression : {Compression::kBlosc, Compression::kZip, Compression::kPlain})
-    for (const auto& grid : gridsOfManyLeaves()) {
-      CAPTURE(nameIn(kCompressionNames, compression), grid->getName());
+    for (const auto& grid : grids) {
+      CAPTURE(nameIn(kCompressionNames, compression), grid->getName(), grid->saveFloatAsHalf(),
+              grid->activeVoxelCount());
       const test::TemporaryFolder folder;
       const auto path = folder.path() / "grid.vdb";
       openvdb::io::File file(path.string());

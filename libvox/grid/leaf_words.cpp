@@ -33,7 +33,40 @@ std::uint64_t spreadInPlane(std::uint64_t f, std::uint64_t open) {
   return spread(spread(f, open, 1, kNotFirstZ, kNotLastZ), open, 8, kAll, kAll);
 }
 
+/// Number of bits set in each byte.
+std::uint64_t countOfBytes(std::uint64_t bits) {
+  bits -= bits >> 1 & 0x5555555555555555;
+  bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
+  return (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0F;
+}
+
 }  // namespace
+
+std::uint64_t countOf(const LeafWords& voxels) {
+  std::uint64_t bytes = 0;  // each at most 64, so the sum of all needs two bytes
+  for (const std::uint64_t word : voxels) bytes += countOfBytes(word);
+  constexpr std::uint64_t kEvenBytes = 0x00FF00FF00FF00FF;
+  const std::uint64_t pairs = (bytes & kEvenBytes) + (bytes >> 8 & kEvenBytes);
+  return pairs * 0x0001000100010001 >> 48;
+}
+
+LeafBox boxOf(const LeafWords& voxels) {
+  LeafBox box;
+  int& x = box.low[0] = 0;
+  while (voxels[static_cast<std::size_t>(x)] == 0) ++x;
+  int& lastX = box.high[0] = 7;
+  while (voxels[static_cast<std::size_t>(lastX)] == 0) --lastX;
+  std::uint64_t yz = 0;
+  for (const std::uint64_t word : voxels) yz |= word;
+  box.low[1] = std::countr_zero(yz) / 8;
+  box.high[1] = 7 - std::countl_zero(yz) / 8;
+  std::uint64_t z = yz | yz >> 32;
+  z |= z >> 16;
+  z = (z | z >> 8) & 0xFF;
+  box.low[2] = std::countr_zero(z);
+  box.high[2] = 63 - std::countl_zero(z);
+  return box;
+}
 
 int lowestVoxel(const LeafWords& voxels) {
   std::size_t x = 0;

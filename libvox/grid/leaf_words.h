@@ -24,6 +24,17 @@ inline LeafWords complementOf(const LeafWords& voxels) {
   return others;
 }
 
+/// Number of voxels in a set.
+std::uint64_t countOf(const LeafWords& voxels);
+
+/// Least box around a set: coordinates within the leaf, 0 .. 7.
+struct LeafBox {
+  std::array<int, 3> low;
+  std::array<int, 3> high;
+};
+/// Precondition: the set is not empty.
+LeafBox boxOf(const LeafWords& voxels);
+
 /// The number 64 x + 8 y + z of the lowest voxel of a set. Precondition: it is not empty.
 int lowestVoxel(const LeafWords& voxels);
 

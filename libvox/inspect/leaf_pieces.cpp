@@ -5,7 +5,6 @@
 #include "libvox/grid/openvdb.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace vox {
 namespace {
@@ -83,12 +82,6 @@ bool touch(const LeafWords& words, const Coord& d, const LeafWords& other, Neigh
   for (std::size_t x = 0; x < other.size(); ++x)
     if ((reached[x] & other[x]) != 0) return true;
   return false;
-}
-
-std::uint64_t countOf(const LeafWords& words) {
-  std::uint64_t count = 0;
-  for (const std::uint64_t word : words) count += static_cast<std::uint64_t>(std::popcount(word));
-  return count;
 }
 
 Coord firstOf(const LeafWords& words) {

@@ -19,8 +19,6 @@ LeafWords takePiece(LeafWords& left, Neighbours neighbours);
 bool touch(const LeafWords& words, const openvdb::Coord& d, const LeafWords& other,
            Neighbours neighbours);
 
-std::uint64_t countOf(const LeafWords& words);
-
 /// The voxel with the lowest x, then y, then z.
 /// @param words  not empty
 openvdb::Coord firstOf(const LeafWords& words);

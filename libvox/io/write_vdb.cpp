@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/hash.h"
+#include "libvox/core/parallel.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/io/parallel_grid.h"
 
@@ -16,6 +17,8 @@
 #include <iostream>
 #include <iterator>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace vox {
 namespace {
@@ -57,17 +60,32 @@ Compression bestCompression() {
   return Compression::kPlain;
 }
 
+using Block = std::vector<char>;
+
+/// @return  number of bytes read: less than the block has at the end of the stream
+std::size_t readBlock(std::istream& stream, Block& block) {
+  stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+  return static_cast<std::size_t>(stream.gcount());
+}
+
 /// Hash of the whole stream, with zeros in place of the UUID.
 std::string contentHash(std::istream& stream) {
   ContentHash hash;
-  std::vector<char> buffer(1 << 20);
+  Block block(1 << 18);
+  Block next(block.size());
   stream.seekg(0);
-  bool atStart = true;
-  while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) ||
-         stream.gcount() > 0) {
-    if (atStart) std::memset(buffer.data() + kUuidOffset, '0', kUuidLength);
-    atStart = false;
-    hash.add({buffer.data(), static_cast<std::size_t>(stream.gcount())});
+  std::size_t size = readBlock(stream, block);
+  std::memset(block.data() + kUuidOffset, '0', kUuidLength);
+  while (size > 0) {
+    std::size_t nextSize = 0;
+    parallelForEach(2, 1, [&](int task) {
+      if (task == 0)
+        hash.add({block.data(), size});
+      else
+        nextSize = readBlock(stream, next);
+    });
+    std::swap(block, next);
+    size = nextSize;
   }
   if (stream.bad()) throw IoError("the output cannot be read back");
   stream.clear();

@@ -12,7 +12,7 @@ namespace vox {
 
 /// Writes grids in OpenVDB's file format, without the values of inactive voxels. A hash of
 /// everything else in the file replaces its random UUID, so that equal grids and metadata give
-/// equal bytes. Leaves are compressed on all threads of the caller's arena.
+/// equal bytes. Works on all threads of the caller's arena.
 ///
 /// @param stream       empty, readable, writable and seekable: std::fstream, std::stringstream
 /// @param compression  default: the first of Blosc, zip and none that the OpenVDB library has
