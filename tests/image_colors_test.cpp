@@ -371,6 +371,27 @@ TEST_CASE("with alpha cut, voxels whose closest point is transparent are left ou
   CHECK_THROWS_WITH(convert(scene, options), Contains("--edge hard"));
 }
 
+TEST_CASE("texture coordinates of any size are read; those that are no numbers are counted",
+          "[io][image]") {
+  const auto check = [](const char* file, const std::string& content) {
+    CAPTURE(file);
+    ReadReport report;
+    const PolygonMesh mesh = parseMesh(file, content, report);
+    REQUIRE(mesh.attributes.texcoords.size() == 3);
+    CHECK(mesh.attributes.texcoords[0] == Vec2f(1e30F, -1e15F));
+    CHECK_FALSE(mesh.attributes.texcoords[1].allFinite());  // 1e200 is too large for a float
+    CHECK(mesh.attributes.texcoords[2] == Vec2f(0, 1));
+    CHECK_THAT(lossText(report),
+               Contains("ignored 1 texture coordinate not finite or missing in the file"));
+  };
+  check("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e30 -1e15\nvt 1e200 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  check("a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty double s\nproperty double t\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "0 0 0 1e30 -1e15\n1 0 0 1e200 0\n0 1 0 0 1\n3 0 1 2\n");
+}
+
 TEST_CASE("PLY has texture coordinates and images as MeshLab writes them", "[io][image]") {
   const std::string header =
       "ply\nformat ascii 1.0\ncomment TextureFile a skin.png\ncomment TextureFile b.png\n"
