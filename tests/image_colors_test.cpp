@@ -336,6 +336,49 @@ TEST_CASE("materials colour the faces; what is missing gives one warning", "[io]
     CHECK(*voxel == openvdb::Vec3f(0, 0, 1));
 }
 
+TEST_CASE("an image of several materials is read once, whether it can be or not", "[image]") {
+  PolygonMesh mesh = test::cube();
+  for (Index c = 0; c < mesh.cornerCount(); ++c)
+    mesh.attributes.texcoords.emplace_back(0.5F, static_cast<float>(c % 2));
+  Scene scene = imageScene(mesh, Image(512, 512));
+  MeshAttributes& attributes = scene.objects[0].mesh.attributes;
+  attributes.materials = {{"a", "b", "c"}, {0, 0, 1, 1, 2, 2}};
+  attributes.looks.resize(3, attributes.looks[0]);
+  ConvertOptions options = colorsAt(16);
+  options.run.maxMemory = 10U << 20U;  // an image takes 1 MiB; three do not fit beside the rest
+  CHECK(convert(scene, options).report.warnings.empty());
+  options.run.maxMemory = 900U << 10U;
+  CHECK_THROWS_WITH(convert(scene, options),
+                    Contains("skin.png: the image needs") && Contains("raise --max-memory"));
+
+  options.run.maxMemory = 0;
+  for (Material& look : attributes.looks) look.image->content = nullptr;  // there is no such file
+  const std::vector<std::string> once = convert(scene, options).report.warnings;
+  REQUIRE(once.size() == 1);
+  CHECK_THAT(once[0], Contains("skin.png: no such file") && !Contains("more image"));
+  attributes.looks[1].image->file = "other.png";
+  const std::vector<std::string> twice = convert(scene, options).report.warnings;
+  REQUIRE(twice.size() == 1);
+  CHECK_THAT(twice[0], Contains("skin.png: no such file") && Contains("(and 1 more image)"));
+}
+
+TEST_CASE("all missing material files give one warning", "[io][image]") {
+  const test::TemporaryFolder folder;
+  const auto warningsOf = [&](const std::string& libraries) {
+    const Scene scene = readScene(
+        folder.write("a.obj", libraries + "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"));
+    std::vector<std::string> warnings = convert(scene, colorsAt(8)).report.warnings;
+    std::erase_if(warnings, [](const auto& text) { return text.find(".mtl") == text.npos; });
+    REQUIRE(warnings.size() == 1);
+    return warnings[0];
+  };
+  CHECK_THAT(warningsOf("mtllib a.mtl\nmtllib b.mtl c.mtl\n"),
+             Contains("a.mtl: no such file") && Contains("its materials are not used") &&
+                 Contains("(and 2 more problems)"));
+  CHECK_THAT(warningsOf("mtllib a.mtl\nmtllib a.mtl\nmtllib a.mtl a.mtl\n"),
+             !Contains("more problem"));
+}
+
 TEST_CASE("with alpha cut, voxels whose closest point is transparent are left out", "[image]") {
   // The image is opaque in its lower half only.
   Image image(8, 8);
