@@ -406,6 +406,15 @@ TEST_CASE("with alpha cut, voxels whose closest point is transparent are left ou
   CHECK(expected > 1000);
   CHECK(cut.report.activeVoxels == test::maskOf(cut).activeVoxelCount());
 
+  CHECK(cut.report.warnings.empty());
+
+  Scene clear = imageScene(mesh, Image(1, 1));
+  clear.objects[0].mesh.attributes.looks[0].opacity = 0.25;
+  const Conversion nothing = convert(clear, options);
+  CHECK(test::maskOf(nothing).activeVoxelCount() == 0);
+  REQUIRE(nothing.report.warnings.size() == 1);
+  CHECK_THAT(nothing.report.warnings[0], Contains("--alpha cut left no voxel"));
+
   options.volume.fill = Fill::kSolid;
   options.grids = std::vector{GridKind::kDensity};
   CHECK_THROWS_AS(convert(scene, options), UsageError);
