@@ -101,6 +101,11 @@ expect 2 'voxel-size.*dim|dim.*voxel-size' convert good.obj -o out.vdb --voxel-s
 expect 2 'bounds.*x0,y0,z0' convert good.obj -o out.vdb --bounds 0,0,0,1,1
 expect 2 'bounds.*six numbers' convert good.obj -o out.vdb --bounds 0,0,0,1,1,nan
 expect 2 'bounds.*low one first' convert good.obj -o out.vdb --bounds 0,0,0,1,-1,1
+for option in --bounds --like --texture --split --part-by --edge --alpha --grids; do
+  expect 2 "$option: must not be empty" convert good.obj -o out.vdb "$option" ''
+done
+expect 2 'alpha cut needs --edge hard .soft is the default of --target blender' \
+  convert good.obj -o out.vdb --alpha cut --target blender
 expect 2 'clip needs --like' convert good.obj -o out.vdb --clip
 expect 2 'like.*dim|dim.*like' convert good.obj -o out.vdb --dim 3 --like good.vdb
 expect 2 'like.*voxel-size|voxel-size.*like' convert good.obj -o out.vdb --voxel-size 3 --like good.vdb
@@ -469,6 +474,10 @@ printf 'convert = {dim = 40, bounds = [-9, -9, -9, 0.1, 9, 9]}\n[[object]]\nmesh
   "$scenes/torus.obj" >part.toml
 expect 0 '' convert part.toml -o scene_part.vdb
 expect 0 '' diff part.vdb scene_part.vdb --no-metadata
+printf 'convert = {dim = 20, split = "object", alpha = "cut"}\n[[object]]\nmesh = "good.obj"\n' >scene_split.toml
+expect 0 '' convert scene_split.toml -o scene_split.vdb
+expect 0 'pixels' render scene_split.toml -o scene_split.png --size 20x20
+expect 0 '' convert scene_split.toml -o scene_split_mask.vdb --grids mask
 printf 'convert = {bounds = [0, 0, 0, 1, 1]}\n[[object]]\nmesh = "good.obj"\n' >five.toml
 expect 3 'five.toml:1:.*six numbers' convert five.toml -o no.vdb
 

@@ -336,6 +336,49 @@ TEST_CASE("materials colour the faces; what is missing gives one warning", "[io]
     CHECK(*voxel == openvdb::Vec3f(0, 0, 1));
 }
 
+TEST_CASE("an image of several materials is read once, whether it can be or not", "[image]") {
+  PolygonMesh mesh = test::cube();
+  for (Index c = 0; c < mesh.cornerCount(); ++c)
+    mesh.attributes.texcoords.emplace_back(0.5F, static_cast<float>(c % 2));
+  Scene scene = imageScene(mesh, Image(512, 512));
+  MeshAttributes& attributes = scene.objects[0].mesh.attributes;
+  attributes.materials = {{"a", "b", "c"}, {0, 0, 1, 1, 2, 2}};
+  attributes.looks.resize(3, attributes.looks[0]);
+  ConvertOptions options = colorsAt(16);
+  options.run.maxMemory = 10U << 20U;  // an image takes 1 MiB; three do not fit beside the rest
+  CHECK(convert(scene, options).report.warnings.empty());
+  options.run.maxMemory = 900U << 10U;
+  CHECK_THROWS_WITH(convert(scene, options),
+                    Contains("skin.png: the image needs") && Contains("raise --max-memory"));
+
+  options.run.maxMemory = 0;
+  for (Material& look : attributes.looks) look.image->content = nullptr;  // there is no such file
+  const std::vector<std::string> once = convert(scene, options).report.warnings;
+  REQUIRE(once.size() == 1);
+  CHECK_THAT(once[0], Contains("skin.png: no such file") && !Contains("more image"));
+  attributes.looks[1].image->file = "other.png";
+  const std::vector<std::string> twice = convert(scene, options).report.warnings;
+  REQUIRE(twice.size() == 1);
+  CHECK_THAT(twice[0], Contains("skin.png: no such file") && Contains("(and 1 more image)"));
+}
+
+TEST_CASE("all missing material files give one warning", "[io][image]") {
+  const test::TemporaryFolder folder;
+  const auto warningsOf = [&](const std::string& libraries) {
+    const Scene scene = readScene(
+        folder.write("a.obj", libraries + "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"));
+    std::vector<std::string> warnings = convert(scene, colorsAt(8)).report.warnings;
+    std::erase_if(warnings, [](const auto& text) { return text.find(".mtl") == text.npos; });
+    REQUIRE(warnings.size() == 1);
+    return warnings[0];
+  };
+  CHECK_THAT(warningsOf("mtllib a.mtl\nmtllib b.mtl c.mtl\n"),
+             Contains("a.mtl: no such file") && Contains("its materials are not used") &&
+                 Contains("(and 2 more problems)"));
+  CHECK_THAT(warningsOf("mtllib a.mtl\nmtllib a.mtl\nmtllib a.mtl a.mtl\n"),
+             !Contains("more problem"));
+}
+
 TEST_CASE("with alpha cut, voxels whose closest point is transparent are left out", "[image]") {
   // The image is opaque in its lower half only.
   Image image(8, 8);
@@ -363,12 +406,42 @@ TEST_CASE("with alpha cut, voxels whose closest point is transparent are left ou
   CHECK(expected > 1000);
   CHECK(cut.report.activeVoxels == test::maskOf(cut).activeVoxelCount());
 
+  CHECK(cut.report.warnings.empty());
+
+  Scene clear = imageScene(mesh, Image(1, 1));
+  clear.objects[0].mesh.attributes.looks[0].opacity = 0.25;
+  const Conversion nothing = convert(clear, options);
+  CHECK(test::maskOf(nothing).activeVoxelCount() == 0);
+  REQUIRE(nothing.report.warnings.size() == 1);
+  CHECK_THAT(nothing.report.warnings[0], Contains("--alpha cut left no voxel"));
+
   options.volume.fill = Fill::kSolid;
   options.grids = std::vector{GridKind::kDensity};
   CHECK_THROWS_AS(convert(scene, options), UsageError);
   options.volume.fill = Fill::kSurface;
   options.volume.edge = Edge::kSoft;
   CHECK_THROWS_WITH(convert(scene, options), Contains("--edge hard"));
+}
+
+TEST_CASE("texture coordinates of any size are read; those that are no numbers are counted",
+          "[io][image]") {
+  const auto check = [](const char* file, const std::string& content) {
+    CAPTURE(file);
+    ReadReport report;
+    const PolygonMesh mesh = parseMesh(file, content, report);
+    REQUIRE(mesh.attributes.texcoords.size() == 3);
+    CHECK(mesh.attributes.texcoords[0] == Vec2f(1e30F, -1e15F));
+    CHECK_FALSE(mesh.attributes.texcoords[1].allFinite());  // 1e200 is too large for a float
+    CHECK(mesh.attributes.texcoords[2] == Vec2f(0, 1));
+    CHECK_THAT(lossText(report),
+               Contains("ignored 1 texture coordinate not finite or missing in the file"));
+  };
+  check("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e30 -1e15\nvt 1e200 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  check("a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nproperty double s\nproperty double t\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "0 0 0 1e30 -1e15\n1 0 0 1e200 0\n0 1 0 0 1\n3 0 1 2\n");
 }
 
 TEST_CASE("PLY has texture coordinates and images as MeshLab writes them", "[io][image]") {

@@ -15,6 +15,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -182,6 +184,30 @@ TEST_CASE("a file that has the whole text as its name wins over a name of a grid
   fileOf(folder, "a.vdb:reference", latticeAt(0.25, {0, 0, 0}));
   CHECK(readLattice(plain + ":reference", false).voxelSize == 0.25);
   CHECK_THROWS_AS(readLattice(folder / "missing.vdb:x", false), InputError);
+}
+
+TEST_CASE("names of grids may have colons, and so may names of files", "[lattice]") {
+  const test::TemporaryFolder folder;
+  auto grid = openvdb::FloatGrid::create(0.0F);
+  grid->setName("smoke:0");
+  grid->setTransform(latticeAt(0.5, {0, 0, 0}));
+  openvdb::io::File(folder / "a:b.vdb").write({grid});
+  CHECK(readLattice(folder / "a:b.vdb:smoke:0", false).voxelSize == 0.5);
+  CHECK(readLattice(folder / "a:b.vdb", false).voxelSize == 0.5);
+  CHECK_THROWS_WITH(readLattice(folder / "a:b.vdb:smoke:1", false),
+                    Contains("a:b.vdb: has no grid 'smoke:1'"));
+}
+
+TEST_CASE("a truncated reference is called so", "[lattice][error]") {
+  const test::TemporaryFolder folder;
+  const std::string file = fileOf(folder, "a.vdb", latticeAt(0.5, {0, 0, 0}));
+  const auto size = std::filesystem::file_size(file);
+  for (const std::uintmax_t kept : {std::uintmax_t{20}, size / 2, size - 1}) {
+    CAPTURE(kept, size);
+    std::filesystem::resize_file(file, kept);
+    CHECK_THROWS_WITH(readLattice(file, false), Contains("a.vdb: is truncated or damaged"));
+    fileOf(folder, "a.vdb", latticeAt(0.5, {0, 0, 0}));
+  }
 }
 
 TEST_CASE("transforms that are no cubes along the axes are refused by what they are", "[lattice]") {

@@ -480,6 +480,19 @@ TEST_CASE("a split without density, or by two kinds of parts, is refused", "[par
   CHECK_THROWS_WITH(convert(test::oneObject(test::cube()), options), Contains("contradict"));
 }
 
+TEST_CASE("other grids can be asked of a scene that splits its density", "[part]") {
+  Scene scene = test::oneObject(test::cube());
+  scene.split = Split::kPart;
+  ConvertOptions options;
+  options.dim = 20;
+  CHECK(namesOf(convert(scene, options)) == std::vector<std::string>{scene.objects[0].name});
+  options.grids = std::vector{GridKind::kMask};
+  CHECK(namesOf(convert(scene, options)) == std::vector<std::string>{"mask"});
+  scene.grids = options.grids;
+  options.grids.reset();
+  CHECK_THROWS_WITH(convert(scene, options), Contains("--split splits the grid density"));
+}
+
 TEST_CASE("parts whose grids do not fit into memory are refused", "[part][error]") {
   ConvertOptions options;
   options.dim = 64;

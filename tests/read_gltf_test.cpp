@@ -271,6 +271,28 @@ TEST_CASE("glTF materials give base colours and images", "[io][gltf]") {
   CHECK(1 - place[1] == Approx(0.2 + 3 * uv[1]));
 }
 
+TEST_CASE("images of glTF in one place are stored once", "[io][gltf]") {
+  GltfBuffer buffer = texturedTriangle();
+  buffer.add<float>(kFloat, 3, {0, 0, 1, 1, 0, 1, 0, 1, 1});
+  const auto primitive = [](const char* points, const char* material) {
+    return std::string("{\"attributes\":{\"POSITION\":") + points +
+           ",\"TEXCOORD_0\":1},\"material\":" + material + "}";
+  };
+  const std::string more =
+      "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],\"meshes\":[{"
+      "\"primitives\":[" +
+      primitive("0", "0") + "," + primitive("2", "1") + "]}],\"materials\":[{" + kTexture +
+      "}}},{" +
+      R"("pbrMetallicRoughness":{"baseColorTexture":{"index":1}}}],)"
+      R"("textures":[{"source":0},{"source":1}],"images":[{"bufferView":2},{"bufferView":2}])";
+  const std::vector<Material> looks = parse(buffer.binary(more)).attributes.looks;
+  REQUIRE(looks.size() == 2);
+  CHECK(looks[0].image->file == "a.glb: images[0]");
+  CHECK(looks[1].image->file == "a.glb: images[1]");
+  CHECK(looks[0].image->content == looks[1].image->content);
+  CHECK(*looks[0].image->content == smallPng());
+}
+
 TEST_CASE("what is wrong with a glTF material is told, and the mesh is read", "[io][gltf]") {
   const GltfBuffer buffer = texturedTriangle();
   const auto problemOf = [&](const std::string& material, const std::string& more = kImage) {

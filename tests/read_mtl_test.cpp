@@ -114,6 +114,7 @@ TEST_CASE("paths of images are relative to the folder of the file", "[io][mtl][g
   CHECK(imageOf("c:a.png").file == "folder/a.png");
   CHECK(imageOf("\\\\server\\maps\\a.png").file == "folder/a.png");
   CHECK(imageOf("maps\\").file == "folder/maps/");
+  CHECK(imageOf("C:").file == "folder/C:");  // no name is left, so all of it is for messages
 }
 
 TEST_CASE("an image that is not at its path is taken from beside the file", "[io][mtl][golden]") {

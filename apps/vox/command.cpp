@@ -33,6 +33,12 @@ CLI::Validator anyNumber() {
       "");
 }
 
+/// Refuses the empty text that a variable of a shell without a value becomes.
+CLI::Validator anyText() {
+  return CLI::Validator(
+      [](std::string& text) { return text.empty() ? "must not be empty" : std::string(); }, "");
+}
+
 }  // namespace
 
 Option Option::type(const std::string& name) const {
@@ -82,7 +88,7 @@ Command::Command(CLI::App& app, const char* name, const char* description)
     : command_(app.add_subcommand(name, description)) {}
 
 Option Command::add(const char* names, std::string& value, const std::string& help) const {
-  return Option(command_->add_option(names, value, help));
+  return Option(command_->add_option(names, value, help)->check(anyText()));
 }
 
 Option Command::add(const char* names, std::vector<std::string>& values,

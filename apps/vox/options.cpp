@@ -78,7 +78,8 @@ void addRunOptions(const Command& command, RunOptions& run) {
   command
       .add(
           "--max-memory", [&run](const std::string& text) { run.maxMemory = parseBytes(text); },
-          "Memory for meshes and grids, such as 512M or 8G (default: three quarters of what is "
+          "Memory for meshes, images and grids, such as 512M or 8G (default: three quarters of "
+          "what is "
           "available)")
       .type("SIZE")
       .group("Run");

@@ -14,7 +14,8 @@ fs::path companionPath(std::string_view name, const fs::path& folder) {
   const bool isWindowsRoot = name.starts_with("\\\\") || (name.size() > 1 && name[1] == ':');
   std::string path(name);
   std::replace(path.begin(), path.end(), '\\', '/');
-  return folder / (isWindowsRoot ? path.substr(path.find_last_of("/:") + 1) : path);
+  const std::string last = path.substr(path.find_last_of("/:") + 1);
+  return folder / (isWindowsRoot && !last.empty() ? last : path);
 }
 
 fs::path foundCompanion(const fs::path& file, const fs::path& folder) {

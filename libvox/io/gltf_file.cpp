@@ -192,8 +192,10 @@ std::string_view GltfFile::bufferOf(const GltfValue& buffer) {
   const std::uint64_t length = buffer.at("byteLength").whole();
   std::string_view bytes = binaryChunk_;
   if (const auto uri = buffer.find("uri")) {
-    const auto [known, isNew] = buffers_.try_emplace(buffer.place());
-    if (isNew && isDataUri(uri->text())) {
+    const bool isData = isDataUri(uri->text());
+    const auto [known, isNew] =
+        buffers_.try_emplace(isData ? "data:" + buffer.place() : uri->text());
+    if (isNew && isData) {
       known->second = dataOf(uri->text(), *uri);
     } else if (isNew) {
       const std::filesystem::path file = fileOfUri(uri->text(), folder());

@@ -70,7 +70,7 @@ class GltfFile {
   std::string_view binaryChunk_;
   bool isBinary_ = false;
   std::size_t trailingBytes_ = 0;
-  std::map<std::string, std::string> buffers_;  // by place; external and in data URIs
+  std::map<std::string, std::string> buffers_;  // by URI; data URIs by place
   std::vector<std::string> companions_;
 };
 

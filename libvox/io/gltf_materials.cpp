@@ -3,9 +3,11 @@
 #include "libvox/io/gltf_materials.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace vox {
@@ -95,12 +97,14 @@ void GltfMaterials::setImage(const GltfValue& image, ImageMap& map) {
     return;
   }
   map.file = file_.name() + ": " + image.place();
-  std::shared_ptr<const std::string>& content = contents_[image.place()];
+  const std::string_view stored =
+      uri ? std::string_view(uri->text())
+          : file_.bytesOf(file_.item("bufferViews", image.at("bufferView")));
+  std::shared_ptr<const std::string>& content = contents_[{stored.data(), stored.size()}];
   if (!content) {
-    std::string bytes =
-        uri ? dataOf(uri->text(), *uri)
-            : std::string(file_.bytesOf(file_.item("bufferViews", image.at("bufferView"))));
-    content = std::make_shared<const std::string>(std::move(bytes));
+    if (stored.size() > availableMemory())  // many views of one buffer may overlap
+      throw LimitError(map.file + ": " + formatBytes(stored.size()) + " do not fit into memory");
+    content = std::make_shared<const std::string>(uri ? dataOf(stored, *uri) : std::string(stored));
   }
   map.content = content;
 }

@@ -6,9 +6,11 @@
 #include "libvox/mesh/material.h"
 #include "libvox/mesh/mesh_attributes.h"
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vox {
@@ -36,7 +38,8 @@ class GltfMaterials {
   std::map<std::string, Index> numbers_;  // by place
   std::vector<Material> looks_;
   UniqueNames names_;
-  std::map<std::string, std::shared_ptr<const std::string>> contents_;  // of images, by place
+  /// Of images, by the bytes that store them: several images may be stored in one place.
+  std::map<std::pair<const char*, std::size_t>, std::shared_ptr<const std::string>> contents_;
 };
 
 }  // namespace vox

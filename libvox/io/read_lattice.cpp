@@ -20,13 +20,16 @@ struct GridName {
   std::string grid;  // "": the first one
 };
 
+/// Names of files and of grids may have colons: the longest name of a file wins.
 GridName gridNameIn(const std::string& reference) {
   std::error_code unused;
-  const std::size_t colon = reference.rfind(':');
-  if (colon == std::string::npos || std::filesystem::exists(reference, unused))
-    return {reference, ""};
-  const GridName split{reference.substr(0, colon), reference.substr(colon + 1)};
-  return std::filesystem::exists(split.file, unused) ? split : GridName{reference, ""};
+  if (std::filesystem::exists(reference, unused)) return {reference, ""};
+  for (std::size_t colon = reference.rfind(':'); colon != std::string::npos && colon > 0;
+       colon = reference.rfind(':', colon - 1)) {
+    const std::string file = reference.substr(0, colon);
+    if (std::filesystem::exists(file, unused)) return {file, reference.substr(colon + 1)};
+  }
+  return {reference, ""};
 }
 
 using Matrix = openvdb::math::Mat4d;  // of row vectors: p' = p M

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace vox {
@@ -19,17 +20,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files of a line. Names may have blanks, so a line is one name if such a file exists.
-std::vector<fs::path> filesOf(const fs::path& folder, const std::string& line) {
-  const auto found = [&](std::string_view name) {
-    return foundCompanion(companionPath(name, folder), folder);
-  };
-  const fs::path whole = found(line);
-  std::error_code ignored;
-  if (fs::exists(whole, ignored)) return {whole};
+/// The files of lines, each of them once. Names may have blanks, so a line is one name if such a
+/// file exists.
+std::vector<fs::path> filesOf(const fs::path& folder, const std::vector<std::string>& lines) {
   std::vector<fs::path> files;
-  std::istringstream words(line);
-  for (std::string word; words >> word;) files.push_back(found(word));
+  std::unordered_set<std::string> known;
+  const auto add = [&](const fs::path& file) {
+    if (known.insert(file.string()).second) files.push_back(file);
+  };
+  for (const std::string& line : lines) {
+    const auto found = [&](std::string_view name) {
+      return foundCompanion(companionPath(name, folder), folder);
+    };
+    const fs::path whole = found(line);
+    std::error_code ignored;
+    if (fs::exists(whole, ignored)) {
+      add(whole);
+      continue;
+    }
+    std::istringstream words(line);
+    for (std::string word; words >> word;) add(found(word));
+  }
   return files;
 }
 
@@ -40,14 +51,12 @@ void readMaterials(const fs::path& meshFile, PolygonMesh& mesh, ReadReport& repo
   const std::vector<std::string>& names = mesh.attributes.materials.names;
   if (lines.empty() || names.empty()) return;
   std::unordered_map<std::string, Material> known;
-  for (const std::string& line : lines) {
-    for (const fs::path& file : filesOf(meshFile.parent_path(), line)) {
-      try {
-        for (Material& material : readMtl(file)) known.try_emplace(material.name, material);
-        report.companions.push_back(file.string());
-      } catch (const InputError& error) {
-        report.materialProblems.emplace_back(error.what());
-      }
+  for (const fs::path& file : filesOf(meshFile.parent_path(), lines)) {
+    try {
+      for (Material& material : readMtl(file)) known.try_emplace(material.name, material);
+      report.companions.push_back(file.string());
+    } catch (const InputError& error) {
+      report.materialProblems.push_back(std::string(error.what()) + "; its materials are not used");
     }
   }
   for (const std::string& name : names) {

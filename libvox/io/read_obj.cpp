@@ -132,15 +132,14 @@ void ObjParser::readTexcoord() {
   Vec3d texcoord = Vec3d::Zero();
   int count = 0;
   for (auto token = scan_.token(); !token.empty(); token = scan_.token(), ++count) {
-    const double number = scan_.coordinate(token);
+    const double number = scan_.numberOrNan(token);
     if (count < 3) texcoord[count] = number;
   }
   if (count < 1 || count > 3)
     scan_.fail("texture coordinate with " + std::to_string(count) + " numbers; expected u v");
   const auto number = static_cast<std::uint64_t>(texcoords_.size());
-  texcoords_.emplace_back(texcoord.head<2>().cast<float>());
-  if (!texcoord.head<2>().allFinite())
-    log_.report.add(Oddity::kUndefinedTexcoord, scan_.line(), number);
+  const Vec2f& added = texcoords_.emplace_back(texcoord.head<2>().cast<float>());
+  if (!added.allFinite()) log_.report.add(Oddity::kUndefinedTexcoord, scan_.line(), number);
 }
 
 // Line "s N", "s on" or "s off": the smoothing group of the faces that follow. 0, and anything that

@@ -47,6 +47,7 @@ class TextNumbers {
   double next(PlyType) { return scan_.number(nextToken()); }
   /// May be NaN or infinite.
   double nextCoordinate(PlyType) { return scan_.coordinate(nextToken()); }
+  double nextNumberOrNan(PlyType) { return scan_.numberOrNan(nextToken()); }
   void skip(PlyType, std::uint64_t count) {
     for (; count > 0; --count) nextToken();
   }
@@ -100,6 +101,7 @@ class BinaryNumbers {
     return 0;
   }
   double nextCoordinate(PlyType type) { return next(type); }
+  double nextNumberOrNan(PlyType type) { return next(type); }
   void skip(PlyType type, std::uint64_t count) {
     const std::size_t size = sizeOf(type);
     if (count > data_.size() / size) fail(place_.truncated());
@@ -221,10 +223,10 @@ void BodyParser<Numbers>::readElement(const PlyElement& element) {
         texnumber = readInteger(property.type);
         break;
       case PlyRole::kU:
-        texcoord[0] = numbers_.nextCoordinate(property.type);
+        texcoord[0] = numbers_.nextNumberOrNan(property.type);
         break;
       case PlyRole::kV:
-        texcoord[1] = numbers_.nextCoordinate(property.type);
+        texcoord[1] = numbers_.nextNumberOrNan(property.type);
         break;
       case PlyRole::kRed:
       case PlyRole::kGreen:
@@ -262,7 +264,7 @@ void BodyParser<Numbers>::readElement(const PlyElement& element) {
 template <typename Numbers>
 void BodyParser<Numbers>::readTexcoords(const PlyProperty& list) {
   for (std::uint64_t rest = readCount(list.countType); rest > 0; --rest)
-    faceTexcoords_.push_back(numbers_.nextCoordinate(list.type));
+    faceTexcoords_.push_back(numbers_.nextNumberOrNan(list.type));
 }
 
 /// Gives the corners of the last face their texture coordinates.
@@ -280,9 +282,10 @@ void BodyParser<Numbers>::setTexcoords() {
 /// Notes a texture coordinate that is not finite.
 template <typename Numbers>
 Vec2f BodyParser<Numbers>::finiteTexcoord(const Vec2d& texcoord) {
-  if (!texcoord.allFinite())
+  const Vec2f single = texcoord.cast<float>();
+  if (!single.allFinite())
     log_.report.add(Oddity::kUndefinedTexcoord, numbers_.line(), place_.index);
-  return texcoord.cast<float>();
+  return single;
 }
 
 /// Corners without texture coordinates of their own have those of their points.

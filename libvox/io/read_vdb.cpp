@@ -12,6 +12,7 @@
 
 #include <array>
 #include <fstream>
+#include <ios>
 #include <map>
 #include <new>
 #include <string_view>
@@ -72,6 +73,8 @@ openvdb::MetaMap read(const std::filesystem::path& file, const Visit& visit) {
     return onDemand ? readOnDemand(file, visit) : readWhole(file, visit);
   } catch (const Error&) {
     throw;
+  } catch (const std::ios_base::failure&) {
+    throw InputError(file.string() + ": is truncated or damaged: OpenVDB cannot read it");
   } catch (const std::bad_alloc&) {
     throw InputError(file.string() + ": is damaged, or needs more memory than there is");
   } catch (const std::exception& wrong) {

@@ -150,6 +150,11 @@ double TextScanner::unusualNumber(std::string_view token) const {
   return 0;
 }
 
+double TextScanner::numberOrNan(std::string_view token) const {
+  if (isUndefined(withoutPlus(token))) return std::numeric_limits<double>::quiet_NaN();
+  return number(token);
+}
+
 double TextScanner::coordinate(std::string_view token) const {
   const std::string_view text = withoutPlus(token);
   const char* const textEnd = text.data() + text.size();
@@ -157,8 +162,7 @@ double TextScanner::coordinate(std::string_view token) const {
   const auto [stop, error] = std::from_chars(text.data(), textEnd, value);
   if (error == std::errc{} && stop == textEnd && std::abs(value) <= kMaxCoordinate) [[likely]]
     return value;
-  if (isUndefined(text)) return std::numeric_limits<double>::quiet_NaN();
-  value = number(token);
+  value = numberOrNan(token);
   if (std::abs(value) > kMaxCoordinate)
     fail("coordinate " + quote(token) + " is larger than 1e15; scale the model down");
   return value;

@@ -54,8 +54,11 @@ class TextScanner {
   /// @throws InputError  the token is none
   double number(std::string_view token) const;
 
-  /// The number of a token, at most kMaxCoordinate in size; or NaN, if the token is a spelling of
-  /// NaN or infinity.
+  /// The number of a token; or NaN, if the token is a spelling of NaN or infinity.
+  /// @throws InputError  the token is none
+  double numberOrNan(std::string_view token) const;
+
+  /// The same, at most kMaxCoordinate in size.
   /// @throws InputError  the token is none
   double coordinate(std::string_view token) const;
 

@@ -94,12 +94,14 @@ void cropGrid(openvdb::GridBase& grid, const Region& region) {
   grid.apply<Kinds>(cropTree);
 }
 
-/// Warns of a box that holds nothing.
-void warnOfEmpty(const Conversion& conversion, ConvertReport& report) {
+/// Warns of a box that holds nothing, and of cuts that leave nothing.
+void warnOfEmpty(const Conversion& conversion, const Request& request, ConvertReport& report) {
   if (std::all_of(conversion.grids.begin(), conversion.grids.end(),
                   [](const auto& grid) { return grid->activeVoxelCount() == 0; }))
     report.warnings.emplace_back(
-        "no active voxel lies in the box of --bounds or --clip: the grids are empty");
+        request.crops()
+            ? "no active voxel lies in the box of --bounds or --clip: the grids are empty"
+            : "--alpha cut left no voxel, because everything is transparent: the grids are empty");
 }
 
 /// Switches on the voxels of a prepared scene, object by object.
@@ -396,7 +398,7 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   const StageTimer timer(report.gridsSeconds);
   result.grids = finishedGrids(maker.make(), scene, request, prepared, report);
   result.compression = request.volume.compression;
-  if (request.crops()) warnOfEmpty(result, report);
+  if (request.crops() || request.volume.alpha == Alpha::kCut) warnOfEmpty(result, request, report);
   if (!needsVoxels(request.grids)) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
 }

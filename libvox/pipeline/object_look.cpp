@@ -7,6 +7,7 @@
 #include "libvox/io/read_image.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace vox {
@@ -20,12 +21,18 @@ Look lookOf(const ImageMap& map, ImageReader& images) {
   return {Vec4f::Ones(), ImageTexture(images.read(map), map)};
 }
 
+/// " (and 2 more images)"; empty if there is only one.
+std::string andMore(std::size_t count, const std::string& thing) {
+  if (count < 2) return {};
+  return " (and " + std::to_string(count - 1) + " more " + thing + (count > 2 ? "s)" : ")");
+}
+
 /// The looks of materials. A warning tells of images that cannot be read.
 std::vector<Look> looksOf(const SceneObject& object, ImageReader& images,
                           std::vector<std::string>& warnings) {
   std::vector<Look> looks;
   std::string firstError;
-  std::size_t errors = 0;
+  std::set<std::string> failed;  // files
   for (const Material& material : object.mesh.attributes.looks) {
     Look& look = looks.emplace_back();
     look.color << material.color, static_cast<float>(material.opacity);
@@ -34,12 +41,12 @@ std::vector<Look> looksOf(const SceneObject& object, ImageReader& images,
     try {
       look.image = lookOf(*material.image, images).image;
     } catch (const InputError& error) {
-      if (errors++ == 0) firstError = error.what();
+      if (failed.empty()) firstError = error.what();
+      failed.insert(material.image->file);
     }
   }
-  if (errors > 0)
-    warnings.push_back(object.name + ": " + firstError +
-                       (errors > 1 ? " (and " + std::to_string(errors - 1) + " more images)" : "") +
+  if (!failed.empty())
+    warnings.push_back(object.name + ": " + firstError + andMore(failed.size(), "image") +
                        "; the plain colour of the material is used");
   return looks;
 }
@@ -47,16 +54,29 @@ std::vector<Look> looksOf(const SceneObject& object, ImageReader& images,
 }  // namespace
 
 std::shared_ptr<const Image> ImageReader::read(const ImageMap& map) {
-  const auto known = images_.find(map.file);
-  if (known != images_.end()) return known->second;
-  if (map.content)
-    return images_[map.file] = std::make_shared<const Image>(parseImage(*map.content, map.file));
-  const std::string content = contentsOf(map.file);
-  auto image = std::make_shared<const Image>(parseImage(content, map.file));
+  const auto [known, isNew] = images_.try_emplace({map.content.get(), map.content ? "" : map.file});
+  Known& image = known->second;
+  if (!isNew && image.pixels == nullptr) throw InputError(image.error);
+  if (!isNew) return image.pixels;
+  try {
+    image.pixels = std::make_shared<const Image>(map.content ? parseImage(*map.content, map.file)
+                                                             : imageOfFile(map.file));
+  } catch (const InputError& error) {
+    image.error = error.what();
+    throw;
+  }
+  budget_.take(image.pixels->pixels.size() * sizeof(Pixel), map.file + ": the image",
+               "scale it down or raise --max-memory");
+  return image.pixels;
+}
+
+Image ImageReader::imageOfFile(const std::string& file) {
+  const std::string content = contentsOf(file);
+  Image image = parseImage(content, file);
   ContentHash hash;
   hash.addFile(content);
   hashes_ += hash.hex();
-  return images_[map.file] = std::move(image);
+  return image;
 }
 
 std::string ImageReader::hashWith(const std::string& inputHash) const {
@@ -72,8 +92,9 @@ SurfaceLook lookOf(const SceneObject& object, const std::optional<TextureSpec>& 
                    ImageReader& images, std::vector<std::string>& warnings) {
   SurfaceLook look;
   look.texcoords = std::move(texcoords);
-  for (const std::string& problem : object.reading.materialProblems)
-    warnings.push_back(object.name + ": " + problem);
+  const std::vector<std::string>& problems = object.reading.materialProblems;
+  if (!problems.empty())
+    warnings.push_back(object.name + ": " + problems[0] + andMore(problems.size(), "problem"));
   if (isImage(texture)) {
     ImageMap map;
     map.file = texture->file;

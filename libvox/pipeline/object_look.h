@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/hash.h"
+#include "libvox/core/memory.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/pipeline/surface_look.h"
 
@@ -8,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vox {
@@ -15,7 +17,11 @@ namespace vox {
 /// Reads the images of materials and textures, each of them once.
 class ImageReader {
  public:
+  /// @param budget  for the pixels
+  explicit ImageReader(MemoryBudget& budget) : budget_(budget) {}
+
   /// @throws InputError  as readImage
+  /// @throws LimitError  the pixels do not fit into the budget
   std::shared_ptr<const Image> read(const ImageMap& map);
 
   /// Hash of a scene and of the files of the images that were read.
@@ -23,8 +29,15 @@ class ImageReader {
   std::string hashWith(const std::string& inputHash) const;
 
  private:
-  std::map<std::string, std::shared_ptr<const Image>> images_;  // by file
-  std::string hashes_;                                          // of files, one after the other
+  struct Known {
+    std::shared_ptr<const Image> pixels = nullptr;  // null: it cannot be read
+    std::string error = {};
+  };
+  Image imageOfFile(const std::string& file);
+
+  MemoryBudget& budget_;
+  std::map<std::pair<const void*, std::string>, Known> images_;  // by content, or else by file
+  std::string hashes_;                                           // of files, one after the other
 };
 
 /// What the faces of a prepared object look like.

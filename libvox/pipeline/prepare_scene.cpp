@@ -144,7 +144,7 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
   plan(scene, request, prepared.areas, progress);
   {
     const StageTimer timer(report.prepareSeconds);
-    ImageReader images;
+    ImageReader images(budget);
     Parts parts;
     if (request.hasParts())
       parts = partsOf(scene, request.partBy ? *request.partBy : defaultPartBy(scene));

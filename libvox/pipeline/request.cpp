@@ -76,12 +76,14 @@ std::vector<GridKind> gridsOf(const Scene& scene, const ConvertOptions& options)
 
 /// Decides what parts are, and whether the density is split into them.
 void resolveParts(const Scene& scene, const ConvertOptions& options, Request& request) {
-  const auto split = options.split ? options.split : scene.split;
+  const auto& kinds = request.grids;
+  const bool hasDensity = std::find(kinds.begin(), kinds.end(), GridKind::kDensity) != kinds.end();
+  // Options may ask for other grids than a scene that splits its density.
+  const bool sceneCounts = hasDensity || !options.grids;
+  const auto split = options.split || !sceneCounts ? options.split : scene.split;
   request.splits = split.has_value();
   if (!request.hasParts()) return;
-  const auto& kinds = request.grids;
-  if (split && std::find(kinds.begin(), kinds.end(), GridKind::kDensity) == kinds.end())
-    throw UsageError("--split splits the grid density; name it in --grids");
+  if (split && !hasDensity) throw UsageError("--split splits the grid density; name it in --grids");
   const bool byObject = split == Split::kObject;
   if (byObject && options.partBy.value_or(PartBy::kObject) != PartBy::kObject)
     throw UsageError("--split object and --part-by " + nameIn(kPartByNames, *options.partBy) +
@@ -97,7 +99,8 @@ void requireCuttable(const Request& request) {
     throw UsageError(
         "--alpha cut makes holes, so nothing has an inside; use --fill surface, and leave surface "
         "out of --grids");
-  if (request.volume.edge == Edge::kSoft) throw UsageError("--alpha cut needs --edge hard");
+  if (request.volume.edge == Edge::kSoft)
+    throw UsageError("--alpha cut needs --edge hard (soft is the default of --target blender)");
 }
 
 std::optional<Box> boundsOf(const std::optional<std::array<double, 6>>& bounds) {
