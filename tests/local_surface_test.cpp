@@ -1,14 +1,17 @@
 #include "libvox/subdivide/local_surface.h"
 
+#include "libvox/grid/transform.h"
 #include "libvox/localize/partition.h"
 #include "libvox/prepare/repair.h"
 #include "libvox/subdivide/doo_sabin.h"
+#include "libvox/subdivide/fan_vertices.h"
 #include "libvox/subdivide/global_surface.h"
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -87,6 +90,25 @@ Collector locally(const SubdivisionLevel& base, Index submeshFaces) {
   return sink;
 }
 
+/// What fans make, and the rest by submeshes.
+/// @param byFans  number of vertices of the base around which fans made all
+Collector densely(const SubdivisionLevel& base, std::ptrdiff_t& byFans) {
+  Collector sink;
+  FanVertices fans(base);
+  std::vector<std::uint8_t> made(base.mesh.pointCount(), 0);
+  for (Index c = 0; c < base.mesh.cornerCount(); ++c) {
+    const Index valence = ledOneRingSize(base.mesh, base.adjacency, c);
+    if (valence > 0) made[base.mesh.faceVertices[c]] = fans.emit(c, valence, &sink);
+  }
+  fans.flush(sink);
+  byFans = std::count(made.begin(), made.end(), 1);
+  LocalSurface surface(base);
+  surface.leaveOut(made);
+  const Partition partition = coverGreedily(base.mesh, base.adjacency, 3);
+  for (Index s = 0; s < partition.size(); ++s) surface.emit(partition.submesh(s), sink);
+  return sink;
+}
+
 Collector globally(const SubdivisionLevel& base) {
   Collector sink;
   emitGlobally(base, sink, [](const SubdivisionLevel&) {});
@@ -123,6 +145,26 @@ TEST_CASE("submeshes emit the vertices of the whole mesh, each once and at its l
           const Collector whole = globally(base);
           for (const Index faces : {1U, 3U, 1000U}) requireSame(locally(base, faces), whole);
         }
+}
+
+TEST_CASE("fans of dense meshes make the vertices of the whole mesh, or leave all of a fan",
+          "[subdivide][property]") {
+  std::ptrdiff_t most = 0;
+  for (const auto* shapes : {&test::shapes(), &test::openShapes()})
+    for (const auto& shape : *shapes)
+      for (const double size : {0.1, 0.7, 1.2, 2.0, 3.5}) {
+        CAPTURE(shape.name, size);
+        RepairReport report;
+        const SubdivisionLevel base =
+            scaled(repair(shape.mesh, {}, report), size, BoundaryRule::kExtend);
+        std::ptrdiff_t byFans = 0;
+        requireSame(densely(base, byFans), globally(base));
+        most = std::max(most, byFans);
+        const bool tiny = usedBox(base.mesh).longestSide() < 0.5;
+        if (shape.closed && tiny && largestNeighbourhood(base.mesh) <= 8)
+          CHECK(byFans == base.mesh.pointCount());
+      }
+  CHECK(most > 50);
 }
 
 TEST_CASE("the vertices of long thin patches are few, and the same for every partition",

@@ -1,5 +1,6 @@
 #include "libvox/prepare/orient.h"
 
+#include "libvox/mesh/adjacency.h"
 #include "libvox/prepare/enclosure.h"
 #include "libvox/prepare/repair.h"
 #include "libvox/subdivide/doo_sabin.h"
@@ -25,6 +26,8 @@ struct Oriented {
 Oriented oriented(const PolygonMesh& mesh) {
   Oriented out;
   out.mesh = orient(mesh, out.report);
+  CHECK(out.report.adjacency.twin == buildAdjacency(out.mesh).twin);
+  CHECK(out.report.adjacency.cornerFace == buildAdjacency(out.mesh).cornerFace);
   return out;
 }
 

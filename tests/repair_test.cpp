@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <random>
 
@@ -28,6 +29,7 @@ struct Repaired {
 Repaired repaired(const PolygonMesh& mesh, RepairOptions options = {}) {
   Repaired out;
   out.mesh = repair(mesh, options, out.report);
+  CHECK(out.report.joints.twin == joinFaces(out.mesh, CrowdedEdge::kSeparate).adjacency.twin);
   return out;
 }
 
@@ -90,12 +92,12 @@ TEST_CASE("a tolerance welds near points, without chains, and leaves the others"
           "[repair][weld]") {
   std::vector<Vec3d> points;
   for (int i = 0; i < 10; ++i) points.emplace_back(0.9 * i, -0.0, 0);
-  const std::vector<bool> used(10, true);
+  const std::vector<std::uint8_t> used(10, true);
   CHECK(weldTargets(points, used, 1.0) == std::vector<Index>{0, 0, 2, 2, 4, 4, 6, 6, 8, 8});
   CHECK(weldTargets(points, used, 0.5) == std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
   CHECK(weldTargets(points, used, 1e-310) == std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
   CHECK(weldTargets(points, used, 1e300) == std::vector<Index>(10, 0));
-  std::vector<bool> firstUnused = used;
+  std::vector<std::uint8_t> firstUnused = used;
   firstUnused[0] = false;
   CHECK(weldTargets(points, firstUnused, 1.0)[1] == 1);
 }
@@ -107,7 +109,7 @@ TEST_CASE("points that stay are further apart than the tolerance, the others wit
   std::vector<Vec3d> points(600);
   for (Vec3d& p : points) p = Vec3d(in(random), in(random), in(random));
   const double tolerance = GENERATE(0.01, 0.2, 0.7);
-  const auto target = weldTargets(points, std::vector<bool>(600, true), tolerance);
+  const auto target = weldTargets(points, std::vector<std::uint8_t>(600, true), tolerance);
   for (Index v = 0; v < 600; ++v) {
     Index expected = v;  // slow, obvious: the lowest point that stayed within the tolerance
     for (Index w = v; w-- > 0;)

@@ -9,6 +9,7 @@ void FaceLevels::start(std::span<const Vec3d> corners, std::size_t real) {
   real_ = real;
   corners_.assign(corners.begin(), corners.end());
   shapes_.clear();
+  diameters_.clear();
 }
 
 std::span<const Vec3d> FaceLevels::corners(int level) {
@@ -26,6 +27,13 @@ const FaceShape& FaceLevels::shape(int level) {
   while (shapes_.size() < count)
     shapes_.push_back(shapeOf(corners(static_cast<int>(shapes_.size()) + 1), real_));
   return shapes_[count - 1];
+}
+
+double FaceLevels::diameter(int level) {
+  const auto count = static_cast<std::size_t>(level);
+  while (diameters_.size() < count)
+    diameters_.push_back(faceDiameter(corners(static_cast<int>(diameters_.size()) + 1), real_));
+  return diameters_[count - 1];
 }
 
 }  // namespace vox

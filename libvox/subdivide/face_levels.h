@@ -33,12 +33,15 @@ class FaceLevels {
   std::span<const Vec3d> corners(int level);
   /// The shape at a level. Valid until shape is called for another level.
   const FaceShape& shape(int level);
+  /// FaceShape::diameter at a level, without the rest of the shape.
+  double diameter(int level);
 
  private:
   std::size_t size_ = 0;
   std::size_t real_ = 0;
   std::vector<Vec3d> corners_;     // level by level
   std::vector<FaceShape> shapes_;  // of the first levels
+  std::vector<double> diameters_;  // the same
   FaceImages images_;
 };
 

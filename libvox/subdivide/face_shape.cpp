@@ -34,9 +34,13 @@ Vec3d unitOrZero(const Vec3d& vector) {
 
 }  // namespace
 
+double faceDiameter(std::span<const Vec3d> corners, std::size_t real) {
+  return real < corners.size() ? realDiameter(corners, real) : diameter(corners);
+}
+
 FaceShape shapeOf(std::span<const Vec3d> corners, std::size_t real) {
   FaceShape shape;
-  shape.diameter = real < corners.size() ? realDiameter(corners, real) : diameter(corners);
+  shape.diameter = faceDiameter(corners, real);
   Vec3d twiceArea = Vec3d::Zero();
   shape.centroid = corners[0];
   for (std::size_t i = 1; i < corners.size(); ++i) {

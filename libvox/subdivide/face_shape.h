@@ -14,6 +14,10 @@ struct FaceShape {
   Vec3d centroid = Vec3d::Zero();
 };
 
+/// FaceShape::diameter of a face with 3 corners or more.
+/// @param real  number of corners that are not mirror images (FaceLevels)
+double faceDiameter(std::span<const Vec3d> corners, std::size_t real);
+
 /// Shape of a face with 3 corners or more.
 /// @param real  number of corners that are not mirror images (FaceLevels)
 FaceShape shapeOf(std::span<const Vec3d> corners, std::size_t real);

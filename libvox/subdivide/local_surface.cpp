@@ -16,8 +16,8 @@ namespace {
 double largestDiameter(const FaceCorner& corner, int level) {
   const auto& p = corner.around.points;
   const Vec3d& at = p[1][1];
-  const FaceLevels& face = corner.face;
-  double size = corner.face.shape(level).diameter;
+  FaceLevels& face = corner.face;
+  double size = face.diameter(level);
   const auto takeSide = [&](bool mirrored, const Vec3d& beside, const Vec3d& far,
                             const Vec3d& near) {
     size = std::max(size, mirrored ? diameter(at, middle(at, beside), middle(near, far), near)
