@@ -51,7 +51,7 @@ std::shared_ptr<const Image> ImageReader::read(const ImageMap& map) {
   if (known != images_.end()) return known->second;
   if (map.content)
     return images_[map.file] = std::make_shared<const Image>(parseImage(*map.content, map.file));
-  const std::string content = contentsOf(map.file);
+  const FileContent content = contentsOf(map.file);
   auto image = std::make_shared<const Image>(parseImage(content, map.file));
   ContentHash hash;
   hash.addFile(content);
