@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -103,6 +104,17 @@ void parallelForEach(Integer count, std::size_t grain, Body&& body) {
   parallelForRanges(count, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i != end; ++i) body(static_cast<Integer>(i));
   });
+}
+
+/// True if holds(i) for every i in [0, count). `grain` as in parallelForRanges.
+template <class Integer, class Predicate>
+bool parallelAllOf(Integer count, std::size_t grain, Predicate&& holds) {
+  std::atomic<bool> all{true};
+  parallelForRanges(count, grain, [&](std::size_t begin, std::size_t end) {
+    for (; begin != end && all.load(std::memory_order_relaxed); ++begin)
+      if (!holds(static_cast<Integer>(begin))) all.store(false, std::memory_order_relaxed);
+  });
+  return all;
 }
 
 /// Sorts a vector in parallel. The order must be total, so that the result does not depend on

@@ -3,10 +3,13 @@
 #include "libvox/grid/transform.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <sstream>
+#include <vector>
 
 namespace vox {
 namespace {
@@ -21,8 +24,16 @@ std::string str(double x) {
 }  // namespace
 
 Box usedBox(const PolygonMesh& mesh) {
+  constexpr std::size_t kCornersPerPart = 1 << 16;
+  const std::span<const Index> corners = mesh.faceVertices;
+  std::vector<Box> parts((corners.size() + kCornersPerPart - 1) / kCornersPerPart);
+  parallelForEach(parts.size(), 1, [&](std::size_t p) {
+    const std::size_t first = p * kCornersPerPart;
+    for (const Index v : corners.subspan(first, std::min(kCornersPerPart, corners.size() - first)))
+      parts[p].add(mesh.points[v]);
+  });
   Box box;
-  for (const Index v : mesh.faceVertices) box.add(mesh.points[v]);
+  for (const Box& part : parts) box.add(part);  // in order: 0 and -0 stay what they were
   return box;
 }
 

@@ -3,6 +3,7 @@
 #include "libvox/io/read_mesh.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/mesh_formats.h"
 #include "libvox/io/read_materials.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -73,16 +75,22 @@ std::string placeOf(Index point, const ReadLog& log) {
 /// Refuses points beyond the limit, and those at NaN or infinity that faces use. The others move
 /// to 0.
 void settlePoints(PolygonMesh& mesh, ReadLog& log) {
+  constexpr std::size_t kPointsPerTask = 1 << 14;
+  const auto sizeOfPoint = [&](Index v) {
+    return mesh.points[v].cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  };
+  if (parallelAllOf(mesh.pointCount(), kPointsPerTask,
+                    [&](Index v) { return sizeOfPoint(v) <= kMaxCoordinate; }))
+    return;
   std::vector<Index> undefined;
   for (Index v = 0; v < mesh.pointCount(); ++v) {
-    const double size = mesh.points[v].cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    const double size = sizeOfPoint(v);
     if (size <= kMaxCoordinate) continue;
     if (std::isfinite(size))
       throw InputError(log.report.file + ": vertex " + std::to_string(v) +
                        " has a coordinate larger than 1e15; scale the model down");
     undefined.push_back(v);
   }
-  if (undefined.empty()) return;
   std::vector<bool> used(mesh.points.size(), false);
   for (const Index v : mesh.faceVertices) used[v] = true;
   std::size_t next = 0;
@@ -98,6 +106,13 @@ void settlePoints(PolygonMesh& mesh, ReadLog& log) {
 }
 
 void checkFaces(const PolygonMesh& mesh, const std::string& fileName) {
+  constexpr std::size_t kFacesPerTask = 1 << 14;
+  const auto isSound = [&](Index f) {
+    const auto isInRange = [&](Index v) { return v < mesh.pointCount(); };
+    const std::span<const Index> face = mesh.face(f);
+    return face.size() >= 3 && std::all_of(face.begin(), face.end(), isInRange);
+  };
+  if (parallelAllOf(mesh.faceCount(), kFacesPerTask, isSound)) return;
   for (Index f = 0; f < mesh.faceCount(); ++f) {
     if (mesh.faceSize(f) < 3)
       throw InputError(fileName + ": face " + std::to_string(f) + " has " +

@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/core/forest.h"
+#include "libvox/core/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -102,16 +103,27 @@ void findVertexDefects(const std::vector<Index>& fans, DefectList& defects) {
                   [&] { return "vertex " + str(v) + " belongs to no face"; });
 }
 
+/// Calls fail(i) for the first i in [0, count) for which holds(i) is false.
+template <class Holds, class Fail>
+void requireAll(Index count, Holds&& holds, Fail&& fail) {
+  constexpr std::size_t kElementsPerTask = 1 << 15;
+  if (parallelAllOf(count, kElementsPerTask, holds)) return;
+  for (Index i = 0; i < count; ++i)
+    if (!holds(i)) fail(i);
+}
+
 void requireValidOffsets(const PolygonMesh& mesh) {
   if (mesh.faceOffsets.empty() || mesh.faceOffsets.front() != 0 ||
       mesh.faceOffsets.back() != mesh.faceVertices.size())
     throw MeshError("faceOffsets must start at 0 and end at the number of corners");
-  for (Index f = 0; f < mesh.faceCount(); ++f) {
-    const auto begin = mesh.faceOffsets[f];
-    const auto end = mesh.faceOffsets[f + 1];
-    if (end < begin || end - begin < 3)
-      throw MeshError("face " + str(f) + " has fewer than 3 corners");
-  }
+  requireAll(
+      mesh.faceCount(),
+      [&](Index f) {
+        const auto begin = mesh.faceOffsets[f];
+        const auto end = mesh.faceOffsets[f + 1];
+        return end >= begin && end - begin >= 3;
+      },
+      [](Index f) { throw MeshError("face " + str(f) + " has fewer than 3 corners"); });
 }
 
 void requireValidSets(const PolygonMesh& mesh, const FaceSets& sets, const char* name) {
@@ -164,11 +176,14 @@ std::vector<Defect> findDefects(const PolygonMesh& mesh, const Adjacency& adjace
 
 void requireValidArrays(const PolygonMesh& mesh) {
   requireValidOffsets(mesh);
-  for (Index f = 0; f < mesh.faceCount(); ++f)
-    for (const Index v : mesh.face(f))
-      if (v >= mesh.pointCount())
-        throw MeshError("face " + str(f) + " names vertex " + str(v) + " of " +
-                        str(mesh.pointCount()));
+  requireAll(
+      mesh.cornerCount(), [&](Index c) { return mesh.faceVertices[c] < mesh.pointCount(); },
+      [&](Index c) {
+        const auto after = std::upper_bound(mesh.faceOffsets.begin(), mesh.faceOffsets.end(), c);
+        throw MeshError(
+            "face " + str(static_cast<std::size_t>(after - mesh.faceOffsets.begin()) - 1) +
+            " names vertex " + str(mesh.faceVertices[c]) + " of " + str(mesh.pointCount()));
+      });
   const auto fits = [](const auto& colors, std::size_t n) {
     return colors.empty() || colors.size() == n;
   };
@@ -177,9 +192,11 @@ void requireValidArrays(const PolygonMesh& mesh) {
   if (!fits(mesh.faceGroups, mesh.faceCount()))
     throw MeshError("faceGroups must have one group per face, or none");
   requireValidAttributes(mesh);
-  for (Index v = 0; v < mesh.pointCount(); ++v)
-    if (!mesh.points[v].allFinite())
-      throw MeshError("vertex " + str(v) + " has a coordinate that is not finite");
+  requireAll(
+      mesh.pointCount(), [&](Index v) { return mesh.points[v].allFinite(); },
+      [](Index v) {
+        throw MeshError("vertex " + str(v) + " has a coordinate that is not finite");
+      });
 }
 
 void requireManifold(const PolygonMesh& mesh, const Adjacency& adjacency) {
