@@ -129,6 +129,10 @@ Conversion& conversionOfProcess() {
   return *conversion;
 }
 
+Scene readFrame(const Frame& frame, const ConvertOptions& options) {
+  return onThreads(options.run.threads, [&] { return readScene(frame.input, options.scale); });
+}
+
 /// One voxel size for all frames, by the box of them all, so that they share one transform. Checks
 /// all inputs and outputs on the way.
 void shareVoxelSize(const ConvertArguments& options, const std::vector<Frame>& frames,
@@ -138,7 +142,7 @@ void shareVoxelSize(const ConvertArguments& options, const std::vector<Frame>& f
   Box box;
   Resolution resolution;  // of the options, else of the first scene that sets one
   for (const Frame& frame : frames) {
-    const Scene scene = readScene(frame.input, convertOptions.scale);
+    const Scene scene = readFrame(frame, convertOptions);
     if (!options.dryRun) requireOutputs(options, frame, scene);
     if (!resolution.isSet()) resolution = resolutionOf(scene, convertOptions);
     requireValidScene(scene);
@@ -151,7 +155,7 @@ void shareVoxelSize(const ConvertArguments& options, const std::vector<Frame>& f
 void runFrame(const ConvertArguments& options, const Frame& frame, ConvertOptions convertOptions) {
   ProgressBar bar(!options.common.quiet);
   const Stopwatch reading;
-  const Scene scene = readScene(frame.input, convertOptions.scale);
+  const Scene scene = readFrame(frame, convertOptions);
   const double readSeconds = reading.seconds();
   if (options.dryRun) return printEstimate(options, scene, resolve(scene, convertOptions));
   requireOutputs(options, frame, scene);

@@ -7,6 +7,7 @@
 #include "apps/vox/options.h"
 #include "apps/vox/progress_bar.h"
 #include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/input_file.h"
@@ -168,7 +169,8 @@ int runRender(const RenderArguments& options) {
   if (isVdb)
     scene.files = {options.input};
   else
-    scene = readScene(options.input, convertOptions.scale);
+    scene = onThreads(options.common.run.threads,
+                      [&] { return readScene(options.input, convertOptions.scale); });
   requireOutput(options.output, options.common, scene);
   convertOptions.grids = gridsFor(renderOptions, convertOptions.texture || hasColors(scene));
   Conversion conversion;

@@ -4,6 +4,7 @@
 #include "apps/vox/interrupt.h"
 #include "apps/vox/options.h"
 #include "apps/vox/progress_bar.h"
+#include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/watched_stream.h"
@@ -72,7 +73,8 @@ int runSubdivide(const SubdivideArguments& options) {
   const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
                                           options.dropComponents, options.strict};
   ProgressBar bar(!options.common.quiet);
-  const Scene scene = readScene(options.input, options.scale);
+  const Scene scene = onThreads(options.common.run.threads,
+                                [&] { return readScene(options.input, options.scale); });
   requireOutput(options.output, options.common, scene);
   Progress progress(bar.callback());
   RunOptions runOptions = options.common.run;

@@ -7,8 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+#include <span>
 #include <sstream>
+#include <vector>
 
 namespace vox {
 namespace {
@@ -23,16 +24,16 @@ std::string str(double x) {
 }  // namespace
 
 Box usedBox(const PolygonMesh& mesh) {
+  constexpr std::size_t kCornersPerPart = 1 << 16;
+  const std::span<const Index> corners = mesh.faceVertices;
+  std::vector<Box> parts((corners.size() + kCornersPerPart - 1) / kCornersPerPart);
+  parallelForEach(parts.size(), 1, [&](std::size_t p) {
+    const std::size_t first = p * kCornersPerPart;
+    for (const Index v : corners.subspan(first, std::min(kCornersPerPart, corners.size() - first)))
+      parts[p].add(mesh.points[v]);
+  });
   Box box;
-  std::mutex lock;
-  parallelForRanges(mesh.faceVertices.size(), kElementsPerTask,
-                    [&](std::size_t begin, std::size_t end) {
-                      Box part;
-                      for (std::size_t c = begin; c < end; ++c)
-                        part.add(mesh.points[mesh.faceVertices[c]]);
-                      const std::lock_guard guard(lock);
-                      box.add(part);
-                    });
+  for (const Box& part : parts) box.add(part);  // in order: 0 and -0 stay what they were
   return box;
 }
 

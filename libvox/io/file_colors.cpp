@@ -3,6 +3,7 @@
 #include "libvox/io/file_colors.h"
 
 #include "libvox/core/color.h"
+#include "libvox/core/parallel.h"
 
 #include <algorithm>
 #include <utility>
@@ -36,6 +37,25 @@ void FileColors::set(Index element, const Vec3d& values, std::size_t line) {
   }
 }
 
+void FileColors::append(const FileColors& part, Index firstElement, std::size_t linesBefore) {
+  largestOfType_ = std::max(largestOfType_, part.largestOfType_);
+  if (part.empty()) return;
+  values_.resize(firstElement, Vec3f::Ones());
+  isSet_.resize(firstElement, false);
+  values_.insert(values_.end(), part.values_.begin(), part.values_.end());
+  isSet_.insert(isSet_.end(), part.isSet_.begin(), part.isSet_.end());
+  largest_ = std::max(largest_, part.largest_);
+  const auto add = [&](Above& above, const Above& other) {
+    if (above.values == 0 && other.values > 0) {
+      above.line = other.line == 0 ? 0 : other.line + linesBefore;
+      above.element = other.element + firstElement;
+    }
+    above.values += other.values;
+  };
+  add(aboveOne_, part.aboveOne_);
+  add(above255_, part.above255_);
+}
+
 float FileColors::fullBrightness() const {
   if (largestOfType_ == 0) return largest_ < 2 ? 1 : kByteRange;
   if (largest_ <= kByteRange) return kByteRange;
@@ -53,8 +73,10 @@ std::vector<Vec3f> FileColors::takeLinear(Index count, ReadReport& report) {
     const double share = value > 0 ? std::min(value / one, 1.0F) : 0.0F;  // nan becomes 0
     return static_cast<float>(linearFromScreen(share));
   };
-  for (std::size_t k = 0; k < values_.size(); ++k)
+  constexpr std::size_t kColorsPerTask = 1 << 12;
+  parallelForEach(values_.size(), kColorsPerTask, [&](std::size_t k) {
     if (isSet_[k]) values_[k] = values_[k].unaryExpr(linear);
+  });
   values_.resize(count, Vec3f::Ones());
   return std::exchange(values_, {});
 }

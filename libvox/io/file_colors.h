@@ -23,6 +23,11 @@ class FileColors {
   /// @param line  of the file; 0: it is binary
   void set(Index element, const Vec3d& values, std::size_t line = 0);
 
+  /// Adds the colours of a later part of the file, which numbers its elements and lines from 0.
+  /// @param firstElement  number of the part's first element; no colour here has it or a later one
+  /// @param linesBefore   lines before the part
+  void append(const FileColors& part, Index firstElement, std::size_t linesBefore = 0);
+
   bool empty() const { return values_.empty(); }
 
   /// Linear colours, 0 to 1, of `count` elements; white for an element whose colour was not set.

@@ -200,7 +200,7 @@ std::string_view GltfFile::bufferOf(const GltfValue& buffer) {
     } else if (isNew) {
       const std::filesystem::path file = fileOfUri(uri->text(), folder());
       try {
-        known->second = contentsOf(file);
+        known->second = std::string_view(contentsOf(file));
       } catch (const InputError& error) {
         buffer.fail(std::string("cannot be read: ") + error.what());
       }

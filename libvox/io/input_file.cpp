@@ -1,16 +1,53 @@
-// Input files as strings, with a message for each reason why a file cannot be read.
+// Input files in memory, with a message for each reason why a file cannot be read.
 
 #include "libvox/io/input_file.h"
 
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
+#include "libvox/core/parallel.h"
 
-#include <fstream>
+#include <atomic>
+#include <cerrno>
+#include <fcntl.h>
 #include <system_error>
+#include <unistd.h>
 
 namespace vox {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// A file that is open for reading, if its descriptor is not negative.
+class OpenFile {
+ public:
+  explicit OpenFile(const char* file) : descriptor_(::open(file, O_RDONLY | O_CLOEXEC)) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+  /// Reads bytes [begin, end) of the file to the same places of `bytes`; false if it cannot. Any
+  /// thread may call it.
+  bool read(char* bytes, std::size_t begin, std::size_t end) const {
+    while (begin < end) {
+      const ssize_t count =
+          ::pread(descriptor_, bytes + begin, end - begin, static_cast<off_t>(begin));
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) return false;
+      begin += static_cast<std::size_t>(count);
+    }
+    return true;
+  }
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace
 
 void requireInputFile(const fs::path& file) {
   const std::string name = file.string();
@@ -27,21 +64,28 @@ void requireInputFile(const fs::path& file) {
   if (size == 0) throw InputError(name + ": the file is empty");
 }
 
-std::string contentsOf(const fs::path& file) {
+FileContent::FileContent(const fs::path& file, std::size_t size)
+    : size_(size), bytes_(std::make_unique_for_overwrite<char[]>(size)) {
+  const OpenFile in(file.c_str());
+  if (in.descriptor() < 0)
+    throw InputError(file.string() + ": cannot be opened; check its permissions");
+  constexpr std::size_t kBlock = std::size_t{1} << 21;
+  std::atomic<bool> whole{true};
+  parallelForRanges(size, kBlock, [&](std::size_t begin, std::size_t end) {
+    if (!in.read(bytes_.get(), begin, end)) whole = false;
+  });
+  if (!whole) throw InputError(file.string() + ": could be read only in part");
+}
+
+FileContent contentsOf(const fs::path& file) {
   requireInputFile(file);
   const std::string name = file.string();
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(name + ": cannot be opened; check its permissions");
-
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
-  if (!error && size > availableMemory())
+  if (error) throw InputError(name + ": cannot be read: " + error.message());
+  if (size > availableMemory())
     throw LimitError(name + ": " + formatBytes(size) + " do not fit into memory");
-  std::string contents(error ? 0 : size, '\0');
-  in.read(contents.data(), static_cast<std::streamsize>(contents.size()));
-  if (error || in.bad() || static_cast<std::uintmax_t>(in.gcount()) != size)
-    throw InputError(name + ": could be read only in part");
-  return contents;
+  return {file, size};
 }
 
 std::string lowerExtension(const fs::path& file) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <string_view>
 
 namespace vox {
 
@@ -10,10 +13,27 @@ namespace vox {
 /// @throws InputError  it is missing, a directory, a device, or empty
 void requireInputFile(const std::filesystem::path& file);
 
+/// The content of a file, in memory. It is a copy: if another program changes or cuts the file, it
+/// stays as it was read.
+class FileContent {
+ public:
+  /// Reads `size` bytes, in parallel.
+  /// @throws InputError  they cannot be read
+  FileContent(const std::filesystem::path& file, std::size_t size);
+
+  operator std::string_view() const {  // NOLINT(google-explicit-constructor)
+    return {bytes_.get(), size_};
+  }
+
+ private:
+  std::size_t size_;
+  std::unique_ptr<char[]> bytes_;
+};
+
 /// The whole content of a file.
 /// @throws InputError  as requireInputFile, or it cannot be read
 /// @throws LimitError  it is larger than the available memory
-std::string contentsOf(const std::filesystem::path& file);
+FileContent contentsOf(const std::filesystem::path& file);
 
 /// Extension with its dot, in lower case, such as ".obj".
 std::string lowerExtension(const std::filesystem::path& file);

@@ -36,4 +36,11 @@ PolygonMesh parseStl(std::string_view data, ReadLog& log);
 PolygonMesh parseOm(std::string_view data, ReadLog& log);
 PolygonMesh parseGltf(std::string_view data, ReadLog& log);  ///< reads the files of its buffers
 
+// Large files are read in blocks, in parallel. The result is the same for every size of the blocks,
+// which tests choose; it is at least 1.
+
+PolygonMesh parseObjInBlocks(std::string_view text, std::size_t bytesPerBlock, ReadLog& log);
+PolygonMesh parsePlyInBlocks(std::string_view data, std::size_t bytesPerBlock, ReadLog& log);
+PolygonMesh parseStlInBlocks(std::string_view data, std::uint64_t facetsPerBlock, ReadLog& log);
+
 }  // namespace vox

@@ -18,6 +18,30 @@ std::size_t sizeOf(PlyType type);
 /// The largest integer of a type; 0 of floats.
 double largestOf(PlyType type);
 
+/// Calls body with a zero of a type, and returns its result.
+template <typename Body>
+auto withType(PlyType type, Body&& body) {
+  switch (type) {
+    case PlyType::kInt8:
+      return body(std::int8_t{});
+    case PlyType::kUint8:
+      return body(std::uint8_t{});
+    case PlyType::kInt16:
+      return body(std::int16_t{});
+    case PlyType::kUint16:
+      return body(std::uint16_t{});
+    case PlyType::kInt32:
+      return body(std::int32_t{});
+    case PlyType::kUint32:
+      return body(std::uint32_t{});
+    case PlyType::kFloat32:
+      return body(float{});
+    case PlyType::kFloat64:
+      break;
+  }
+  return body(double{});
+}
+
 /// Meaning of a property for the reader.
 enum class PlyRole {
   kIgnored,

@@ -11,7 +11,7 @@
 namespace vox {
 
 std::vector<Index> readIndices(const std::filesystem::path& file) {
-  const std::string content = contentsOf(file);
+  const FileContent content = contentsOf(file);
   TextScanner text(content, file.string(), {.hashComments = true});
   std::vector<Index> indices;
   for (auto token = text.tokenOnAnyLine(); !token.empty(); token = text.tokenOnAnyLine()) {

@@ -3,6 +3,7 @@
 #include "libvox/io/read_mesh.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/parallel.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/mesh_formats.h"
 #include "libvox/io/read_materials.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -73,9 +75,14 @@ std::string placeOf(Index point, const ReadLog& log) {
 /// Refuses points beyond the limit, and those at NaN or infinity that faces use. The others move
 /// to 0.
 void settlePoints(PolygonMesh& mesh, ReadLog& log) {
+  const auto sizeOfPoint = [&](Index v) {
+    return mesh.points[v].cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  };
+  const Index first = lowestWhere(mesh.pointCount(), kElementsPerTask,
+                                  [&](Index v) { return !(sizeOfPoint(v) <= kMaxCoordinate); });
   std::vector<Index> undefined;
-  for (Index v = 0; v < mesh.pointCount(); ++v) {
-    const double size = mesh.points[v].cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  for (Index v = first; v < mesh.pointCount(); ++v) {
+    const double size = sizeOfPoint(v);
     if (size <= kMaxCoordinate) continue;
     if (std::isfinite(size))
       throw InputError(log.report.file + ": vertex " + std::to_string(v) +
@@ -98,16 +105,21 @@ void settlePoints(PolygonMesh& mesh, ReadLog& log) {
 }
 
 void checkFaces(const PolygonMesh& mesh, const std::string& fileName) {
-  for (Index f = 0; f < mesh.faceCount(); ++f) {
-    if (mesh.faceSize(f) < 3)
-      throw InputError(fileName + ": face " + std::to_string(f) + " has " +
-                       std::to_string(mesh.faceSize(f)) + " corners; it needs at least 3");
-    for (const Index v : mesh.face(f))
-      if (v >= mesh.pointCount())
-        throw InputError(fileName + ": face " + std::to_string(f) + " refers to vertex " +
-                         std::to_string(v) + " of " + std::to_string(mesh.pointCount()) +
-                         " (numbered from 0)");
-  }
+  const auto isWrong = [&](Index f) {
+    const auto isOutOfRange = [&](Index v) { return v >= mesh.pointCount(); };
+    const std::span<const Index> face = mesh.face(f);
+    return face.size() < 3 || std::any_of(face.begin(), face.end(), isOutOfRange);
+  };
+  const Index f = lowestWhere(mesh.faceCount(), kElementsPerTask, isWrong);
+  if (f == mesh.faceCount()) return;
+  if (mesh.faceSize(f) < 3)
+    throw InputError(fileName + ": face " + std::to_string(f) + " has " +
+                     std::to_string(mesh.faceSize(f)) + " corners; it needs at least 3");
+  for (const Index v : mesh.face(f))
+    if (v >= mesh.pointCount())
+      throw InputError(fileName + ": face " + std::to_string(f) + " refers to vertex " +
+                       std::to_string(v) + " of " + std::to_string(mesh.pointCount()) +
+                       " (numbered from 0)");
 }
 
 }  // namespace

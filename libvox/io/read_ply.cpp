@@ -1,19 +1,21 @@
-// Polygon File Format (Stanford), text and binary.
+// Polygon File Format (Stanford): the elements of a file as a mesh.
 //
-// Source: G. Turk, "The PLY Polygon File Format", 1994; tristrips as in the Stanford scanning
-// repository: one list of vertices, -1 starts a new strip; texture coordinates as MeshLab writes
-// them: two numbers for each corner of a face, texnumber counts the comments TextureFile from 0.
+// Source: G. Turk, "The PLY Polygon File Format", 1994; images as MeshLab names them: texnumber
+// counts the comments TextureFile from 0.
 
 #include "libvox/core/error.h"
-#include "libvox/io/byte_order.h"
+#include "libvox/core/parallel.h"
 #include "libvox/io/companion_file.h"
-#include "libvox/io/file_colors.h"
 #include "libvox/io/mesh_formats.h"
+#include "libvox/io/ply_blocks.h"
+#include "libvox/io/ply_body.h"
 #include "libvox/io/ply_header.h"
-#include "libvox/io/read_mesh.h"
+#include "libvox/io/ply_plain.h"
 #include "libvox/io/text_scanner.h"
 #include "libvox/io/unique_names.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -27,281 +29,117 @@ namespace {
 
 const Vec2f kNoTexcoord = Vec2f::Constant(std::numeric_limits<float>::quiet_NaN());
 
-// The element that is being read, for messages.
-struct Place {
-  const PlyElement* element = nullptr;
-  std::uint64_t index = 0;
-
-  std::string name() const { return element->name + " " + std::to_string(index); }
-  std::string truncated() const {
-    return "truncated: ends within " + name() + " of " + std::to_string(element->count);
-  }
-};
-
-// Numbers of a text body. An element may run over several lines, but must start on a new one; so a
-// missing or additional number does not shift all later elements.
-class TextNumbers {
+// The blocks of a file, in order, as one mesh.
+class PlyJoiner {
  public:
-  TextNumbers(TextScanner& scan, const Place& place) : scan_(scan), place_(place) {}
-
-  double next(PlyType) { return scan_.number(nextToken()); }
-  /// May be NaN or infinite.
-  double nextCoordinate(PlyType) { return scan_.coordinate(nextToken()); }
-  double nextNumberOrNan(PlyType) { return scan_.numberOrNan(nextToken()); }
-  void skip(PlyType, std::uint64_t count) {
-    for (; count > 0; --count) nextToken();
-  }
-  void endElement() {
-    if (const auto extra = scan_.token(); !extra.empty())
-      fail("unexpected " + quote(extra) + " after the last value of " + place_.name());
-    scan_.nextLine();
-  }
-  [[noreturn]] void fail(const std::string& what) const { scan_.fail(what); }
-  std::size_t line() const { return scan_.line(); }
-
- private:
-  std::string_view nextToken() {
-    const std::string_view token = scan_.tokenOnAnyLine();
-    if (token.empty()) fail(place_.truncated());
-    return token;
-  }
-
-  TextScanner& scan_;
-  const Place& place_;
-};
-
-// Numbers of a binary body.
-class BinaryNumbers {
- public:
-  BinaryNumbers(std::string_view data, std::endian order, const std::string& fileName,
-                const Place& place)
-      : data_(data), order_(order), fileName_(fileName), place_(place) {}
-
-  double next(PlyType type) {
-    const char* const at = data_.data();
-    skip(type, 1);
-    switch (type) {
-      case PlyType::kInt8:
-        return loadNumber<std::int8_t>(at, order_);
-      case PlyType::kUint8:
-        return loadNumber<std::uint8_t>(at, order_);
-      case PlyType::kInt16:
-        return loadNumber<std::int16_t>(at, order_);
-      case PlyType::kUint16:
-        return loadNumber<std::uint16_t>(at, order_);
-      case PlyType::kInt32:
-        return loadNumber<std::int32_t>(at, order_);
-      case PlyType::kUint32:
-        return loadNumber<std::uint32_t>(at, order_);
-      case PlyType::kFloat32:
-        return static_cast<double>(loadNumber<float>(at, order_));
-      case PlyType::kFloat64:
-        return loadNumber<double>(at, order_);
+  // Reads the blocks that are not plain, or all.
+  PlyJoiner(const PlyHeader& header, const std::vector<PlyBlock>& blocks, bool hasPlain,
+            ReadLog& log)
+      : header_(header), log_(log), plain_(blocks.size()), parts_(blocks.size()) {
+    parallelForEach(blocks.size(), 1, [&](std::size_t b) {
+      if (hasPlain) plain_[b] = plainBlockOf(header, blocks[b]);
+      if (!plain_[b]) parts_[b] = readPlyBlock(header, blocks[b], log.report.file);
+    });
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const PolygonMesh& mesh = parts_[b].mesh;
+      const PlyCounts counts = plain_[b] ? countsOf(*plain_[b])
+                                         : PlyCounts{mesh.points.size(), mesh.faceVertices.size(),
+                                                     mesh.faceOffsets.size() - 1};
+      const PlyCounts& start = starts_.back();
+      starts_.push_back({start.points + counts.points, start.corners + counts.corners,
+                         start.faces + counts.faces});
     }
-    return 0;
   }
-  double nextCoordinate(PlyType type) { return next(type); }
-  double nextNumberOrNan(PlyType type) { return next(type); }
-  void skip(PlyType type, std::uint64_t count) {
-    const std::size_t size = sizeOf(type);
-    if (count > data_.size() / size) fail(place_.truncated());
-    data_.remove_prefix(size * count);
-  }
-  void endElement() {}
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(fileName_ + ": " + what);
-  }
-  std::size_t line() const { return 0; }
+
+  // Nothing: a plain block has an error, or a face to drop.
+  std::optional<PolygonMesh> join();
 
  private:
-  std::string_view data_;
-  std::endian order_;
-  const std::string& fileName_;
-  const Place& place_;
-};
+  void joinLogs();
+  void joinColors();
+  void joinTexcoords();
+  void joinTextures();
+  void joinPart(std::size_t b);
 
-// Reads the elements of the header from a source of numbers.
-template <typename Numbers>
-class BodyParser {
- public:
-  BodyParser(Numbers numbers, const PlyHeader& header, Place& place, ReadLog& log)
-      : numbers_(numbers), header_(header), place_(place), log_(log) {}
-
-  PolygonMesh parse() {
-    for (const PlyElement& element : header_.elements) {
-      if (element.properties.empty()) continue;  // such elements have no bytes
-      place_ = {&element, 0};
-      prepareColors(element);
-      for (; place_.index < element.count; ++place_.index) {
-        readElement(element);
-        numbers_.endElement();
-      }
-    }
-    mesh_.pointColors = pointColors_.takeLinear(mesh_.pointCount(), log_.report);
-    mesh_.faceColors = faceColors_.takeLinear(mesh_.faceCount(), log_.report);
-    takeTexcoords();
-    takeTextures();
-    return std::move(mesh_);
-  }
-
- private:
-  void prepareColors(const PlyElement& element);
-  void readElement(const PlyElement& element);
-  double readColor(PlyType type);
-  std::uint64_t readCount(PlyType type);
-  std::int64_t readInteger(PlyType type);
-  Index pointOf(std::int64_t index);
-  void readFace(const PlyProperty& list);
-  void readStrips(const PlyProperty& list);
-  void readTexcoords(const PlyProperty& list);
-  void setTexcoords();
-  Vec2f finiteTexcoord(const Vec2d& texcoord);
-  void takeTexcoords();
-  void takeTextures();
-
-  Numbers numbers_;
   const PlyHeader& header_;
-  Place& place_;
   ReadLog& log_;
+  std::vector<std::optional<PlainBlock>> plain_;  // read by join, straight to their places
+  std::vector<PlyPart> parts_;                    // the other blocks
+  std::vector<PlyCounts> starts_ = {{}};          // of the blocks, and the end
   PolygonMesh mesh_;
-  bool keepsType_ = true;  // colours of the element have one type, which gives their range
-  FileColors pointColors_;
-  FileColors faceColors_;
-  std::vector<double> faceTexcoords_;     // of the face that is being read
-  std::vector<Vec2f> cornerTexcoords_;    // of corners so far, or fewer: the others have none
-  std::vector<Vec2f> pointTexcoords_;     // of all points, or empty
-  std::vector<std::int64_t> texnumbers_;  // of faces so far, or fewer: the others have 0
 };
 
-template <typename Numbers>
-void BodyParser<Numbers>::prepareColors(const PlyElement& element) {
-  if (!element.hasColor) return;
-  if (element.colorLine > 0) log_.report.add(Oddity::kForeignColor, element.colorLine);
-  std::vector<double> largest;
-  for (const PlyProperty& property : element.properties)
-    if (property.role >= PlyRole::kRed && property.role <= PlyRole::kBlue)
-      largest.push_back(largestOf(property.type));
-  keepsType_ = largest[0] == largest[1] && largest[0] == largest[2];
-  if (!keepsType_) return;
-  if (element.isVertex) pointColors_.setIntegers(largest[0]);
-  if (element.isFace) faceColors_.setIntegers(largest[0]);
+std::optional<PolygonMesh> PlyJoiner::join() {
+  const PlyCounts& all = starts_.back();
+  mesh_.points.resize(all.points);
+  mesh_.faceVertices.resize(all.corners);
+  mesh_.faceOffsets.resize(all.faces + 1);
+  std::atomic<bool> isSound{true};
+  parallelForEach(parts_.size(), 1, [&](std::size_t b) {
+    if (!plain_[b]) return joinPart(b);
+    if (!loadPlain(*plain_[b], header_.vertexCount, starts_[b], mesh_)) isSound = false;
+  });
+  if (!isSound) return std::nullopt;
+  joinLogs();
+  joinColors();
+  joinTexcoords();
+  joinTextures();
+  return std::move(mesh_);
 }
 
-// A colour value in the range of its type, or from 0 to 1 if the three types differ.
-template <typename Numbers>
-double BodyParser<Numbers>::readColor(PlyType type) {
-  const double value = numbers_.next(type);
-  const double largest = largestOf(type);
-  if (!keepsType_) return largest > 0 ? value / largest : value;
-  constexpr double kTurn = 256;  // a signed byte stands for an unsigned one
-  return type == PlyType::kInt8 && value < 0 ? value + kTurn : value;
-}
-
-template <typename Numbers>
-void BodyParser<Numbers>::readElement(const PlyElement& element) {
-  const Index facesBefore = mesh_.faceCount();
-  Vec3d point = Vec3d::Zero();
-  Vec3d color = Vec3d::Zero();
-  Vec2d texcoord = Vec2d::Zero();
-  std::optional<std::int64_t> texnumber;
-  faceTexcoords_.clear();
-  for (const PlyProperty& property : element.properties) {
-    switch (property.role) {
-      case PlyRole::kIgnored:
-        numbers_.skip(property.type, property.isList ? readCount(property.countType) : 1);
-        break;
-      case PlyRole::kFace:
-        readFace(property);
-        break;
-      case PlyRole::kStrips:
-        readStrips(property);
-        break;
-      case PlyRole::kTexcoords:
-        readTexcoords(property);
-        break;
-      case PlyRole::kTexnumber:
-        texnumber = readInteger(property.type);
-        break;
-      case PlyRole::kU:
-        texcoord[0] = numbers_.nextNumberOrNan(property.type);
-        break;
-      case PlyRole::kV:
-        texcoord[1] = numbers_.nextNumberOrNan(property.type);
-        break;
-      case PlyRole::kRed:
-      case PlyRole::kGreen:
-      case PlyRole::kBlue:
-        color[static_cast<int>(property.role) - static_cast<int>(PlyRole::kRed)] =
-            readColor(property.type);
-        break;
-      case PlyRole::kX:
-      case PlyRole::kY:
-      case PlyRole::kZ: {
-        const double value = numbers_.nextCoordinate(property.type);
-        if (std::isfinite(value) && std::abs(value) > kMaxCoordinate)
-          numbers_.fail(place_.name() + ": coordinate " + property.name +
-                        " is larger than 1e15; scale the model down");
-        point[static_cast<int>(property.role) - static_cast<int>(PlyRole::kX)] = value;
-      }
-    }
-  }
-  if (element.hasColor && element.isVertex)
-    pointColors_.set(mesh_.pointCount(), color, numbers_.line());
-  if (element.isVertex && !point.allFinite() && numbers_.line() > 0)
-    log_.undefined.push_back({mesh_.pointCount(), numbers_.line()});
-  if (element.hasTexcoord) pointTexcoords_.push_back(finiteTexcoord(texcoord));
-  if (element.isVertex) mesh_.points.push_back(point);
-  if (element.hasColor && element.isFace && mesh_.faceCount() > facesBefore)
-    faceColors_.set(mesh_.faceCount() - 1, color, numbers_.line());
-  if (!element.isFace || mesh_.faceCount() == facesBefore) return;
-  if (!faceTexcoords_.empty()) setTexcoords();
-  if (texnumber) {
-    texnumbers_.resize(facesBefore, 0);
-    texnumbers_.push_back(*texnumber);
+void PlyJoiner::joinLogs() {
+  for (const PlyElement& element : header_.elements)
+    if (element.hasColor && element.colorLine > 0)
+      log_.report.add(Oddity::kForeignColor, element.colorLine);
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    log_.report.append(parts_[b].log.report);
+    for (const auto& [point, line] : parts_[b].log.undefined)
+      log_.undefined.push_back({static_cast<Index>(starts_[b].points + point), line});
   }
 }
 
-template <typename Numbers>
-void BodyParser<Numbers>::readTexcoords(const PlyProperty& list) {
-  for (std::uint64_t rest = readCount(list.countType); rest > 0; --rest)
-    faceTexcoords_.push_back(numbers_.nextNumberOrNan(list.type));
+void PlyJoiner::joinColors() {
+  FileColors ofPoints, ofFaces;
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    ofPoints.append(parts_[b].pointColors, static_cast<Index>(starts_[b].points));
+    ofFaces.append(parts_[b].faceColors, static_cast<Index>(starts_[b].faces));
+  }
+  mesh_.pointColors = ofPoints.takeLinear(static_cast<Index>(starts_.back().points), log_.report);
+  mesh_.faceColors = ofFaces.takeLinear(static_cast<Index>(starts_.back().faces), log_.report);
 }
 
-/// Gives the corners of the last face their texture coordinates.
-template <typename Numbers>
-void BodyParser<Numbers>::setTexcoords() {
-  const std::size_t corners = mesh_.faceSize(mesh_.faceCount() - 1);
-  if (faceTexcoords_.size() != 2 * corners)
-    numbers_.fail(place_.name() + ": texcoord has " + std::to_string(faceTexcoords_.size()) +
-                  " numbers; expected 2 for each of the " + std::to_string(corners) + " corners");
-  cornerTexcoords_.resize(mesh_.faceVertices.size() - corners, kNoTexcoord);
-  for (std::size_t i = 0; i < corners; ++i)
-    cornerTexcoords_.push_back(finiteTexcoord({faceTexcoords_[2 * i], faceTexcoords_[2 * i + 1]}));
+// Writes the points and faces of a part to their places, and frees them.
+void PlyJoiner::joinPart(std::size_t b) {
+  const PolygonMesh part = std::exchange(parts_[b].mesh, {});
+  const PlyCounts& start = starts_[b];
+  std::copy(part.points.begin(), part.points.end(), mesh_.points.data() + start.points);
+  std::copy(part.faceVertices.begin(), part.faceVertices.end(),
+            mesh_.faceVertices.data() + start.corners);
+  std::transform(part.faceOffsets.begin() + 1, part.faceOffsets.end(),
+                 mesh_.faceOffsets.data() + start.faces + 1,
+                 [&](Index offset) { return static_cast<Index>(start.corners + offset); });
 }
 
-/// Notes a texture coordinate that is not finite.
-template <typename Numbers>
-Vec2f BodyParser<Numbers>::finiteTexcoord(const Vec2d& texcoord) {
-  const Vec2f single = texcoord.cast<float>();
-  if (!single.allFinite())
-    log_.report.add(Oddity::kUndefinedTexcoord, numbers_.line(), place_.index);
-  return single;
+// Corners without texture coordinates of their own have those of their points.
+void PlyJoiner::joinTexcoords() {
+  std::vector<Vec2f> ofPoints, ofCorners;
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    PlyPart& part = parts_[b];
+    ofPoints.insert(ofPoints.end(), part.pointTexcoords.begin(), part.pointTexcoords.end());
+    if (part.cornerTexcoords.empty()) continue;
+    ofCorners.resize(starts_[b].corners, kNoTexcoord);
+    ofCorners.insert(ofCorners.end(), part.cornerTexcoords.begin(), part.cornerTexcoords.end());
+  }
+  if (ofCorners.empty() && ofPoints.empty()) return;
+  ofCorners.resize(mesh_.faceVertices.size(), kNoTexcoord);
+  for (std::size_t c = 0; c < ofCorners.size(); ++c)
+    if (!ofPoints.empty() && std::isnan(ofCorners[c][0]))
+      ofCorners[c] = ofPoints[mesh_.faceVertices[c]];
+  mesh_.attributes.texcoords = std::move(ofCorners);
 }
 
-/// Corners without texture coordinates of their own have those of their points.
-template <typename Numbers>
-void BodyParser<Numbers>::takeTexcoords() {
-  if (cornerTexcoords_.empty() && pointTexcoords_.empty()) return;
-  cornerTexcoords_.resize(mesh_.faceVertices.size(), kNoTexcoord);
-  for (std::size_t c = 0; c < cornerTexcoords_.size(); ++c)
-    if (!pointTexcoords_.empty() && std::isnan(cornerTexcoords_[c][0]))
-      cornerTexcoords_[c] = pointTexcoords_[mesh_.faceVertices[c]];
-  mesh_.attributes.texcoords = std::move(cornerTexcoords_);
-}
-
-/// The images that comments name become materials.
-template <typename Numbers>
-void BodyParser<Numbers>::takeTextures() {
+// The images that comments name become materials.
+void PlyJoiner::joinTextures() {
   if (header_.textureFiles.empty()) return;
   const std::filesystem::path folder = std::filesystem::path(log_.report.file).parent_path();
   MeshAttributes& attributes = mesh_.attributes;
@@ -313,79 +151,39 @@ void BodyParser<Numbers>::takeTextures() {
     look.image->file = foundCompanion(companionPath(file, folder), folder).string();
     attributes.materials.names.push_back(look.name);
   }
+  std::vector<std::int64_t> texnumbers;
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    texnumbers.resize(starts_[b].faces, 0);
+    texnumbers.insert(texnumbers.end(), parts_[b].texnumbers.begin(), parts_[b].texnumbers.end());
+  }
+  texnumbers.resize(mesh_.faceCount(), 0);
   const auto count = static_cast<std::int64_t>(header_.textureFiles.size());
-  texnumbers_.resize(mesh_.faceCount(), 0);
-  for (const std::int64_t number : texnumbers_)
+  for (const std::int64_t number : texnumbers)
     attributes.materials.ofFaces.push_back(
         number >= 0 && number < count ? static_cast<Index>(number) : kNone);
-}
-
-template <typename Numbers>
-std::int64_t BodyParser<Numbers>::readInteger(PlyType type) {
-  const double value = numbers_.next(type);
-  if (!(std::abs(value) < 0x1p53) || value != std::floor(value))
-    numbers_.fail(place_.name() + ": a count or index is not a whole number");
-  return static_cast<std::int64_t>(value);
-}
-
-template <typename Numbers>
-std::uint64_t BodyParser<Numbers>::readCount(PlyType type) {
-  const std::int64_t count = readInteger(type);
-  if (count < 0) numbers_.fail(place_.name() + ": a list has " + std::to_string(count) + " items");
-  return static_cast<std::uint64_t>(count);
-}
-
-template <typename Numbers>
-Index BodyParser<Numbers>::pointOf(std::int64_t index) {
-  if (index < 0 || index >= static_cast<std::int64_t>(header_.vertexCount))
-    numbers_.fail(place_.name() + " refers to vertex " + std::to_string(index) + " of " +
-                  std::to_string(header_.vertexCount) + " (numbered from 0)");
-  return static_cast<Index>(index);
-}
-
-template <typename Numbers>
-void BodyParser<Numbers>::readFace(const PlyProperty& list) {
-  const std::uint64_t corners = readCount(list.countType);
-  const std::size_t first = mesh_.faceVertices.size();
-  for (std::uint64_t i = 0; i < corners; ++i)
-    mesh_.faceVertices.push_back(pointOf(readInteger(list.type)));
-  if (corners < 3) {
-    mesh_.faceVertices.resize(first);
-    log_.report.add(Oddity::kShortFace, numbers_.line(), place_.index);
-    return;
-  }
-  mesh_.faceOffsets.push_back(mesh_.cornerCount());
-}
-
-// Triangle i of a strip has corners i, i + 1, i + 2; every other triangle is turned round.
-// Triangles with a repeated corner only connect parts of the strip: they become no faces.
-template <typename Numbers>
-void BodyParser<Numbers>::readStrips(const PlyProperty& list) {
-  Index a = 0, b = 0;
-  std::uint64_t inStrip = 0;
-  for (std::uint64_t rest = readCount(list.countType); rest > 0; --rest) {
-    const std::int64_t index = readInteger(list.type);
-    if (index == -1) {
-      inStrip = 0;
-      continue;
-    }
-    const Index c = pointOf(index);
-    if (++inStrip >= 3 && a != b && b != c && c != a)
-      mesh_.addFace(inStrip % 2 == 1 ? std::array{a, b, c} : std::array{b, a, c});
-    a = std::exchange(b, c);
-  }
 }
 
 }  // namespace
 
 PolygonMesh parsePly(std::string_view data, ReadLog& log) {
-  const std::string& fileName = log.report.file;
-  TextScanner scan(data, fileName, {});
+  constexpr std::size_t kBytesPerBlock = std::size_t{1} << 18;
+  return parsePlyInBlocks(data, kBytesPerBlock, log);
+}
+
+// If a block has an error, the elements are read in order, to find the first one.
+PolygonMesh parsePlyInBlocks(std::string_view data, std::size_t bytesPerBlock, ReadLog& log) {
+  TextScanner scan(data, log.report.file, {});
   const PlyHeader header = parsePlyHeader(scan);
-  Place place;
-  if (!header.binaryOrder) return BodyParser(TextNumbers(scan, place), header, place, log).parse();
-  const BinaryNumbers numbers(scan.rest(), *header.binaryOrder, fileName, place);
-  return BodyParser(numbers, header, place, log).parse();
+  const std::vector<PlyBlock> whole = {{0, elementCount(header), scan.rest(), scan.line()}};
+  try {
+    std::vector<PlyBlock> blocks;
+    if (scan.rest().size() > bytesPerBlock) blocks = plyBlocks(header, scan, bytesPerBlock);
+    for (const bool hasPlain : {true, false})
+      if (!blocks.empty())
+        if (auto mesh = PlyJoiner(header, blocks, hasPlain, log).join()) return *std::move(mesh);
+  } catch (const InputError&) {  // below
+  }
+  return PlyJoiner(header, whole, false, log).join().value();
 }
 
 }  // namespace vox

@@ -43,6 +43,13 @@ void ReadReport::add(Oddity kind, std::size_t line, std::uint64_t element, std::
   all.count += count;
 }
 
+void ReadReport::append(const ReadReport& part, std::size_t linesBefore) {
+  materialFiles.insert(materialFiles.end(), part.materialFiles.begin(), part.materialFiles.end());
+  for (std::size_t k = 0; k < kOddityCount; ++k)
+    if (const auto& [count, line, element] = part.counts[k]; count > 0)
+      add(static_cast<Oddity>(k), line == 0 ? 0 : line + linesBefore, element, count);
+}
+
 std::string lossText(const ReadReport& report) {
   std::string text;
   for (std::size_t k = 0; k < kOddityCount; ++k) {

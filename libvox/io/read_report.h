@@ -48,6 +48,10 @@ struct ReadReport {
   void add(Oddity kind, std::size_t line, std::uint64_t element = kNoElement,
            std::uint64_t count = 1);
 
+  /// Adds what was found in a later part of the file, which numbers its lines from 1.
+  /// @param linesBefore  lines before the part
+  void append(const ReadReport& part, std::size_t linesBefore = 0);
+
   const Count& operator[](Oddity kind) const { return counts[static_cast<std::size_t>(kind)]; }
 };
 

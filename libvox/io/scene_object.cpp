@@ -226,7 +226,7 @@ TextureSpec readTexture(const SceneText& text, const toml::node& node) {
 PolygonMesh readMeshInto(ContentHash& hash, const fs::path& file, ReadReport& report) {
   requireInputFile(file);
   requireMeshExtension(file);
-  const std::string content = contentsOf(file);
+  const FileContent content = contentsOf(file);
   hash.addFile(content);
   PolygonMesh mesh = parseMesh(file, content, report);
   readMaterials(file, mesh, report);

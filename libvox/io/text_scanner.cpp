@@ -77,11 +77,17 @@ std::string quote(std::string_view text) {
 }
 
 TextScanner::TextScanner(std::string_view text, std::string fileName, Rules rules)
-    : fileName_(std::move(fileName)), rules_(rules) {
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  at_ = text.data();
-  end_ = at_ + text.size();
-  if (isUtf16(text)) fail("the text is UTF-16; save it as UTF-8 or ASCII");
+    : TextScanner(text, std::move(fileName), rules, 1) {
+  if (text.starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
+  if (isUtf16(rest())) fail("the text is UTF-16; save it as UTF-8 or ASCII");
+}
+
+TextScanner::TextScanner(std::string_view part, std::string fileName, Rules rules, std::size_t line)
+    : fileName_(std::move(fileName)),
+      rules_(rules),
+      at_(part.data()),
+      end_(at_ + part.size()),
+      line_(line) {
   for (const char c : {' ', '\t', '\v', '\f', '\n', '\r'})
     endsToken_[static_cast<unsigned char>(c)] = true;
   endsToken_['#'] = rules.hashComments;
@@ -168,7 +174,7 @@ double TextScanner::coordinate(std::string_view token) const {
   return value;
 }
 
-std::int64_t TextScanner::integer(std::string_view token) const {
+std::int64_t TextScanner::unusualInteger(std::string_view token) const {
   const std::string_view text = withoutPlus(token);
   std::int64_t value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -27,6 +27,10 @@ class TextScanner {
   /// @throws InputError  the text is UTF-16
   TextScanner(std::string_view text, std::string fileName, Rules rules);
 
+  /// Scans a part of a text.
+  /// @param line  number of the line that the part begins with
+  TextScanner(std::string_view part, std::string fileName, Rules rules, std::size_t line);
+
   /// Next token of the current line; empty at the end of the line.
   std::string_view token();
 
@@ -78,13 +82,14 @@ class TextScanner {
   bool isInToken() const;
   void skipLineEnd();
   double unusualNumber(std::string_view token) const;
+  std::int64_t unusualInteger(std::string_view token) const;
 
   std::string fileName_;
   Rules rules_;
   std::array<bool, 256> endsToken_{};
   const char* at_;
   const char* end_;
-  std::size_t line_ = 1;
+  std::size_t line_;
   std::uint64_t gluedComments_ = 0;
   std::size_t lineOfGluedComment_ = 0;
 };
@@ -104,6 +109,17 @@ inline double TextScanner::number(std::string_view token) const {
   if (error == std::errc{} && stop == textEnd && std::isfinite(value)) [[likely]]
     return value;
   return unusualNumber(token);
+}
+
+inline std::int64_t TextScanner::integer(std::string_view token) const {
+  constexpr std::size_t kSafeDigits = 18;
+  std::int64_t value = 0;
+  std::size_t digits = 0;
+  for (; digits < token.size() && token[digits] >= '0' && token[digits] <= '9'; ++digits) {
+    if (digits == kSafeDigits) return unusualInteger(token);
+    value = 10 * value + (token[digits] - '0');
+  }
+  return digits > 0 && digits == token.size() ? value : unusualInteger(token);
 }
 
 inline std::string_view TextScanner::token() {

@@ -71,7 +71,7 @@ std::shared_ptr<const Image> ImageReader::read(const ImageMap& map) {
 }
 
 Image ImageReader::imageOfFile(const std::string& file) {
-  const std::string content = contentsOf(file);
+  const FileContent content = contentsOf(file);
   Image image = parseImage(content, file);
   ContentHash hash;
   hash.addFile(content);
