@@ -254,6 +254,8 @@ class DoubleCover {
     for (const Index f : covered_)
       for (Index c = mesh_.faceOffsets[f]; c < mesh_.faceOffsets[f + 1]; ++c) joinCopies(c);
     for (const Index v : splitFans(mesh_, joints_)) report_.pointOrigin.push_back(v);
+    startFacesAtLowest(mesh_);
+    joints_ = buildAdjacency(mesh_);
   }
 
  private:

@@ -335,6 +335,13 @@ bool chord(Draft& draft, const Adjacency& joints, RepairReport& report) {
   return true;
 }
 
+/// Joins the faces of a mesh that has been cut. Copies of vertices have higher numbers, so other
+/// vertices of their faces may be the lowest now.
+Adjacency joinedAgain(PolygonMesh& mesh) {
+  startFacesAtLowest(mesh);
+  return joinFaces(mesh, CrowdedEdge::kSeparate).adjacency;
+}
+
 /// Chording can leave concave faces, and splitting can end at vertices of two faces. So both are
 /// done in each round.
 /// @return  the joints of the result
@@ -344,18 +351,20 @@ Adjacency makeManifold(Draft& draft, const RepairOptions& options, RepairReport&
   for (int round = 0; round < kMostRounds; ++round) {
     if (options.faces == FaceRule::kSplit && splitConcaveFaces(draft, options.allConvex, report))
       sheets = joinDistinctFaces(draft, report);
-    const bool crowded = !sheets.crowdedEdges.empty();
+    const std::size_t pointsBefore = draft.mesh.points.size();
+    const bool wasCrowded = !sheets.crowdedEdges.empty();
     Adjacency joints = cutIntoSheets(draft, std::move(sheets), report);
-    if (chord(draft, joints, report))
-      sheets = joinDistinctFaces(draft, report);
-    else
-      return crowded ? joinFaces(draft.mesh, CrowdedEdge::kSeparate).adjacency : std::move(joints);
+    if (!chord(draft, joints, report)) {
+      const bool isAsJoined = !wasCrowded && draft.mesh.points.size() == pointsBefore;
+      return isAsJoined ? std::move(joints) : joinedAgain(draft.mesh);
+    }
+    sheets = joinDistinctFaces(draft, report);
   }
   Adjacency joints = cutIntoSheets(draft, std::move(sheets), report);
   openInteriorPairs(draft.mesh, joints);
   const auto copied = splitFans(draft.mesh, joints);
   noteCopies(draft, copied, std::vector<bool>(draft.mesh.pointCount(), false), report);
-  return joinFaces(draft.mesh, CrowdedEdge::kSeparate).adjacency;
+  return joinedAgain(draft.mesh);
 }
 
 /// Counts the vertices of the input that are not in the output, except welded and chorded ones, and
