@@ -26,7 +26,14 @@ bool mayBeFine(double diameter) {
 }  // namespace
 
 bool FanVertices::emit(Index lowest, Index valence, SurfaceSink* sink) {
-  if (valence < 3 || valence > kMostFaces || !gather(lowest, valence)) return false;
+  if (valence < 3 || valence > kMostFaces) return false;
+  if (gatherFineTriangles(lowest, valence)) {
+    if (sink == nullptr) return true;
+    fine_[0].insert(fine_[0].end(), vFace_.begin(), vFace_.begin() + valence);
+    if (fine_[0].size() >= kMostCollected) flush(*sink);
+    return true;
+  }
+  if (!gather(lowest, valence)) return false;
   for (Index i = 0; i < valence; ++i) vFace_[i] = faces_[i].at();
   const double vFaceDiameter = diameter(std::span(vFace_).first(valence));
   std::array<Way, kMostFaces> ways;
@@ -56,6 +63,37 @@ void FanVertices::flush(SurfaceSink& sink) {
     if (!fine_[i].empty()) sink.points(fine_[i], static_cast<int>(i) + 1);
     fine_[i].clear();
   }
+}
+
+/// Sets the vertices of level 1. False unless all faces of the fan are triangles and all faces of
+/// level 1 are fine enough, by more than rounding: their sizes follow from the triangles. With the
+/// vertices v, a, b of a triangle, its image at v is v + ((a - v) + (b - v)) / 6. So the F-face
+/// measures half of the triangle, and the E-face of an edge from v to a is a parallelogram of sides
+/// (a - v) / 2 and (b - c) / 6, where b and c lie opposite the edge.
+bool FanVertices::gatherFineTriangles(Index lowest, Index valence) {
+  constexpr double kLimit = kVertexConversionSpan - 1e-6;
+  const PolygonMesh& mesh = base_.mesh;
+  const Vec3d& v = mesh.points[mesh.faceVertices[lowest]];
+  Index c = lowest;
+  for (Index i = 0; i < valence; ++i) {
+    const Index f = base_.adjacency.cornerFace[c];
+    if (mesh.faceSize(f) != 3) return false;
+    const std::span<const Index> face = mesh.face(f);
+    const Index next = nextCorner(mesh, base_.adjacency, c);
+    ring_[i] = mesh.points[mesh.faceVertices[next]];
+    if ((ring_[i] - v).cwiseAbs().maxCoeff() > 2 * kLimit) return false;
+    const Vec3d sixth = (mesh.points[face[0]] + mesh.points[face[1]] + mesh.points[face[2]]) / 6.0;
+    vFace_[i] = 0.5 * v + sixth;
+    c = nextAroundVertex(mesh, base_.adjacency, c);
+  }
+  valence_ = valence;
+  for (Index i = 0; i < valence; ++i) {
+    const Vec3d toNext = ring_[after(i)] - ring_[i];
+    const Vec3d across = ring_[after(i)] - ring_[before(i)];
+    const Vec3d edgeFace = (ring_[i] - v).cwiseAbs() / 2 + across.cwiseAbs() / 6;
+    if (toNext.cwiseAbs().maxCoeff() > 2 * kLimit || edgeFace.maxCoeff() > kLimit) return false;
+  }
+  return diameter(std::span(vFace_).first(valence)) <= kLimit;
 }
 
 /// Sets the faces of the fan. False if one of them is too large.

@@ -55,6 +55,7 @@ class FanVertices {
   };
   enum class Way { kLevel1, kLevel2, kPatch };
 
+  bool gatherFineTriangles(Index lowest, Index valence);
   bool gather(Index lowest, Index valence);
   void setFace(Index f, Face& face);
   std::optional<Way> wayOf(Index i, double vFaceDiameter) const;
@@ -72,6 +73,7 @@ class FanVertices {
   std::array<FaceImages, kMostFaces + 1> imagesOfSize_;
   Index valence_ = 0;
   std::array<Face, kMostFaces> faces_;      // counter-clockwise from the lowest corner
+  std::array<Vec3d, kMostFaces> ring_;      // vertices of the mesh around that of the fan
   std::array<Vec3d, kMostFaces> vFace_;     // level 1
   std::array<Vec3d, kMostFaces> inVFace_;   // level 2
   std::array<std::vector<Vec3d>, 2> fine_;  // collected vertices, by level
