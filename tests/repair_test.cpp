@@ -1,6 +1,8 @@
 #include "libvox/prepare/repair.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/numbered.h"
+#include "libvox/mesh/spatial_order.h"
 #include "libvox/prepare/chord.h"
 #include "libvox/prepare/face_order.h"
 #include "libvox/prepare/manifold.h"
@@ -407,6 +409,49 @@ TEST_CASE("mutated meshes end sound, repair is idempotent and repeatable", "[rep
     CHECK(summary(twice.report).empty());
     CHECK(test::sameMesh(twice.mesh, once.mesh));
   }
+}
+
+TEST_CASE(
+    "a large mesh in random order is put into spatial order, and its elements keep their names",
+    "[repair]") {
+  const PolygonMesh ordered = test::torusGrid(256, 300);
+  CHECK_FALSE(isScattered(ordered));
+  std::mt19937 random(7);
+  std::vector<Index> newName = numbered(ordered.pointCount());
+  std::vector<Index> faces = numbered(ordered.faceCount());
+  std::shuffle(newName.begin(), newName.end(), random);
+  std::shuffle(faces.begin(), faces.end(), random);
+  PolygonMesh mesh;
+  mesh.points.resize(ordered.points.size());
+  for (Index v = 0; v < newName.size(); ++v) mesh.points[newName[v]] = ordered.points[v];
+  for (const Index f : faces) {
+    std::vector<Index> face;
+    for (const Index v : ordered.face(f)) face.push_back(newName[v]);
+    mesh.addFace(face);
+  }
+  CHECK(isScattered(mesh));
+  mesh.addFace(mesh.face(5));  // a fault, to be named
+
+  const auto out = repaired(mesh);
+  CHECK_FALSE(isScattered(out.mesh));
+  CHECK(out.count(RepairKind::kDuplicateFace) == 1);
+  REQUIRE(out.mesh.faceCount() == ordered.faceCount());
+  REQUIRE(out.mesh.pointCount() == ordered.pointCount());
+  bool same = true;
+  for (Index v = 0; v < out.mesh.pointCount(); ++v)
+    same &= out.mesh.points[v] == mesh.points[out.report.pointOrigin[v]];
+  std::vector<bool> seen(mesh.faceCount(), false);
+  for (Index f = 0; f < out.mesh.faceCount(); ++f) {
+    std::vector<Index> face;
+    for (const Index v : out.mesh.face(f)) face.push_back(out.report.pointOrigin[v]);
+    std::vector<Index> original(mesh.face(out.report.faceOrigin[f]).begin(),
+                                mesh.face(out.report.faceOrigin[f]).end());
+    startAtLowest(face);
+    startAtLowest(original);
+    same &= face == original && !seen[out.report.faceOrigin[f]];
+    seen[out.report.faceOrigin[f]] = true;
+  }
+  CHECK(same);
 }
 
 TEST_CASE("adversarial meshes of 100,000 elements are repaired", "[repair][property]") {

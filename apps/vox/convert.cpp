@@ -26,6 +26,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vox::app {
@@ -155,7 +156,7 @@ void shareVoxelSize(const ConvertArguments& options, const std::vector<Frame>& f
 void runFrame(const ConvertArguments& options, const Frame& frame, ConvertOptions convertOptions) {
   ProgressBar bar(!options.common.quiet);
   const Stopwatch reading;
-  const Scene scene = readFrame(frame, convertOptions);
+  Scene scene = readFrame(frame, convertOptions);
   const double readSeconds = reading.seconds();
   if (options.dryRun) return printEstimate(options, scene, resolve(scene, convertOptions));
   requireOutputs(options, frame, scene);
@@ -168,7 +169,7 @@ void runFrame(const ConvertArguments& options, const Frame& frame, ConvertOption
   {
     const CancelOnSignal cancelOnSignal(progress);
     conversion = {};  // the frame before
-    conversion = convert(scene, request);
+    conversion = options.verify ? convert(scene, request) : convert(std::move(scene), request);
     if (options.verify) verify(conversion, scene, request);
     const Stopwatch writing;
     onThreads(options.common.run.threads,

@@ -3,6 +3,7 @@
 #include "libvox/localize/partition.h"
 
 #include "libvox/core/parallel.h"
+#include "libvox/mesh/spatial_order.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -32,40 +33,17 @@ FaceOrder inputOrder(Index count) {
   return order;
 }
 
-/// The 21 bits of x, with two zero bits after each.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32U) & 0x001F00000000FFFFULL;
-  x = (x | x << 16U) & 0x001F0000FF0000FFULL;
-  x = (x | x << 8U) & 0x100F00F00F00F00FULL;
-  x = (x | x << 4U) & 0x10C30C30C30C30C3ULL;
-  return (x | x << 2U) & 0x1249249249249249ULL;
-}
-
-/// Order of the faces by the position of their first corners on a Z-order curve through the box of
-/// the mesh (Morton 1966).
-FaceOrder spatialOrder(const PolygonMesh& mesh) {
-  const Index count = mesh.faceCount();
-  constexpr double kMost = (1 << 21) - 1;
-  Vec3d low = mesh.points[mesh.faceVertices[0]];
-  Vec3d high = low;
-  for (const Index v : mesh.faceVertices) {
-    low = low.cwiseMin(mesh.points[v]);
-    high = high.cwiseMax(mesh.points[v]);
-  }
-  const double scale = kMost / std::max((high - low).maxCoeff(), 1e-300);
-  std::vector<std::pair<std::uint64_t, Index>> codes(count);
-  parallelForEach(count, kFacesPerBlock, [&](Index f) {
-    const Vec3d at = (mesh.points[mesh.faceVertices[mesh.faceOffsets[f]]] - low) * scale;
-    const auto along = [&](int axis) { return spread(static_cast<std::uint64_t>(at[axis])); };
-    codes[f] = {along(0) << 2U | along(1) << 1U | along(2), f};
+/// Order of the faces by the positions of their first corners.
+FaceOrder orderInSpace(const PolygonMesh& mesh) {
+  std::vector<Vec3d> firstCorners(mesh.faceCount());
+  parallelForEach(mesh.faceCount(), kFacesPerBlock, [&](Index f) {
+    firstCorners[f] = mesh.points[mesh.faceVertices[mesh.faceOffsets[f]]];
   });
-  parallelSort(codes);
   FaceOrder order;
-  order.places.resize(count);
-  for (const auto& [code, f] : codes) {
-    order.places[f] = static_cast<Index>(order.faces.size());
-    order.faces.push_back(f);
-  }
+  order.faces = spatialOrder(firstCorners);
+  order.places.resize(order.faces.size());
+  for (Index place = 0; place < order.faces.size(); ++place)
+    order.places[order.faces[place]] = place;
   return order;
 }
 
@@ -192,7 +170,7 @@ Partition coverGreedily(const PolygonMesh& mesh, const Adjacency& adjacency, Ind
   Cover cover = coverInOrder(mesh, adjacency, inputOrder(faces), most, leftOut);
   constexpr std::size_t kScattered = 4;
   const bool scattered = faces > kFacesPerBlock && cover.centres > kScattered * (faces / most + 1);
-  if (scattered) cover = coverInOrder(mesh, adjacency, spatialOrder(mesh), most, leftOut);
+  if (scattered) cover = coverInOrder(mesh, adjacency, orderInSpace(mesh), most, leftOut);
   return std::move(cover.partition);
 }
 

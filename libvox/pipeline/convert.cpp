@@ -117,11 +117,10 @@ class SceneMarker {
         report_(report),
         grid_(prepared.budget.left(), regionOfMarks(request, prepared.region)) {}
 
-  /// @param corners  of the input
-  void mark(std::size_t object, std::uint64_t corners) {
+  void mark(std::size_t object) {
     PreparedSurface& surface = prepared_.surfaces[object];
     ObjectReport& part = report_.objects[object];
-    progress_.begin("surface", workOfSurface(prepared_.areas[object], corners));
+    progress_.begin("surface", workOfSurface(prepared_.areas[object], surface.inputCorners));
     if (surface.way.polygons)
       markByPolygons(surface, part);
     else
@@ -191,12 +190,10 @@ class SceneMarker {
 };
 
 /// The voxels of all objects.
-openvdb::MaskGrid::Ptr markObjects(const Scene& scene, const Request& request,
-                                   PreparedScene& prepared, Progress& progress,
-                                   ConvertReport& report) {
+openvdb::MaskGrid::Ptr markObjects(const Request& request, PreparedScene& prepared,
+                                   Progress& progress, ConvertReport& report) {
   SceneMarker marker(request, needsObjectsApart(prepared, request), prepared, progress, report);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    marker.mark(i, scene.objects[i].mesh.cornerCount());
+  for (std::size_t i = 0; i < prepared.surfaces.size(); ++i) marker.mark(i);
   return marker.take();
 }
 
@@ -249,10 +246,10 @@ struct MarkedVoxels {
 };
 
 /// @param region  of the grids; all voxels unless the request crops
-MarkedVoxels markedVoxels(const Scene& scene, const Request& request, const Region& region,
-                          PreparedScene& prepared, Progress& progress, ConvertReport& report) {
+MarkedVoxels markedVoxels(const Request& request, const Region& region, PreparedScene& prepared,
+                          Progress& progress, ConvertReport& report) {
   const StageTimer timer(report.surfaceSeconds);
-  const auto mask = markObjects(scene, request, prepared, progress, report);
+  const auto mask = markObjects(request, prepared, progress, report);
   if (!request.crops()) return {mask, mask};
   const Region around = region.grown(kMarginOfSoft);
   for (PreparedSurface& surface : prepared.surfaces)
@@ -271,10 +268,9 @@ struct MadeGrids {
 /// Makes grids one after the other; later ones use earlier ones.
 class GridMaker {
  public:
-  GridMaker(const Scene& scene, const Request& request, PreparedScene& prepared, Progress& progress,
+  GridMaker(const Request& request, PreparedScene& prepared, Progress& progress,
             ConvertReport& report)
-      : scene_(scene),
-        request_(request),
+      : request_(request),
         prepared_(prepared),
         progress_(progress),
         report_(report),
@@ -288,7 +284,7 @@ class GridMaker {
     voxels_.all = openvdb::MaskGrid::create();
     voxels_.all->setTransform(transformOfFile(request, prepared.transform));
     voxels_.near = voxels_.all;
-    if (marks_) voxels_ = markedVoxels(scene, request, sources_.region, prepared, progress, report);
+    if (marks_) voxels_ = markedVoxels(request, sources_.region, prepared, progress, report);
   }
   GridMaker(const GridMaker&) = delete;
   GridMaker& operator=(const GridMaker&) = delete;
@@ -317,7 +313,7 @@ class GridMaker {
   const openvdb::MaskTree& voxelsOfAll() {
     if (marks_) return voxels_.all->tree();
     ConvertReport unused = report_;
-    later_ = markObjects(scene_, request_, prepared_, progress_, unused);
+    later_ = markObjects(request_, prepared_, progress_, unused);
     progress_.begin("grids", partOfWork(GridKind::kSurface));  // go on where makeGrid was
     return later_->tree();
   }
@@ -348,7 +344,6 @@ class GridMaker {
     return made_.parts;
   }
 
-  const Scene& scene_;
   const Request& request_;
   PreparedScene& prepared_;
   Progress& progress_;
@@ -388,13 +383,15 @@ std::vector<openvdb::GridBase::Ptr> finishedGrids(const MadeGrids& made, const S
   return grids;
 }
 
-Conversion convertScene(const Scene& scene, const Request& request, Progress& progress) {
+/// @param usedUp  as in prepareScene
+Conversion convertScene(const Scene& scene, const Request& request, Progress& progress,
+                        Scene* usedUp = nullptr) {
   openvdb::initialize();
   Conversion result;
   ConvertReport& report = result.report;
-  PreparedScene prepared = prepareScene(scene, request, progress, report);
+  PreparedScene prepared = prepareScene(scene, request, progress, report, usedUp);
   if (!prepared.estimate.refusal.empty()) throw LimitError(prepared.estimate.refusal);
-  GridMaker maker(scene, request, prepared, progress, report);
+  GridMaker maker(request, prepared, progress, report);
   const StageTimer timer(report.gridsSeconds);
   result.grids = finishedGrids(maker.make(), scene, request, prepared, report);
   result.compression = request.volume.compression;
@@ -440,6 +437,12 @@ Conversion convert(const Scene& scene, const ConvertOptions& options) {
 Conversion convert(const Scene& scene, const Request& request) {
   return runRequest(scene, request.run,
                     [&](Progress& progress) { return convertScene(scene, request, progress); });
+}
+
+Conversion convert(Scene&& scene, const Request& request) {
+  return runRequest(scene, request.run, [&](Progress& progress) {
+    return convertScene(scene, request, progress, &scene);
+  });
 }
 
 Estimate estimate(const Scene& scene, const ConvertOptions& options,

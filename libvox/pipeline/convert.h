@@ -45,6 +45,9 @@ Conversion convert(const Scene& scene, const ConvertOptions& options);
 /// @param request  resolved for this scene
 Conversion convert(const Scene& scene, const Request& request);
 
+/// The same, but may use up the points and faces of the scene, which saves their memory.
+Conversion convert(Scene&& scene, const Request& request);
+
 /// Box of all objects without the components that are dropped, world units. The `dim` voxels lie
 /// along its longest side.
 /// @param preparations  one for each object

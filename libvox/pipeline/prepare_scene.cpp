@@ -81,14 +81,15 @@ void notePreparation(const PreparedObject& prepared, const GridTransform& transf
 PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_t i,
                               const GridTransform& transform, const Parts& parts,
                               ImageReader& images, MemoryBudget& budget, Progress& progress,
-                              ConvertReport& report) {
+                              ConvertReport& report, PolygonMesh* usedUp) {
   const SceneObject& object = scene.objects[i];
   const ObjectRequest& request = all.objects[i];
   ObjectReport& part = report.objects.emplace_back();
   part.name = object.name;
   part.inputFaces = object.mesh.faceCount();
+  const Index inputCorners = object.mesh.cornerCount();
   progress.begin("prepare", workOfPreparing(object.mesh, request.preparation.interpolates()));
-  PreparedObject prepared = prepare(scene, object, request.preparation, budget, progress);
+  PreparedObject prepared = prepare(scene, object, request.preparation, budget, progress, usedUp);
   const bool isSmoothed = request.way.until.levels != 0;
   if (isSmoothed) warnOfBoundary(part.name, prepared.base, report);
   notePreparation(prepared, transform, part, report);
@@ -96,6 +97,7 @@ PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_
   budget.take(bytesOf(prepared.base), "the prepared meshes", "raise --max-memory");
   PreparedSurface surface{object.name, std::move(prepared.base), request.way, all.surface,
                           placedTexture(request.texture, object, transform.turn)};
+  surface.inputCorners = inputCorners;
   if (all.hasLooks() && !surface.texture)
     surface.look = lookOf(object, request.texture, prepared.faceOrigin,
                           std::move(prepared.texcoords), images, report.warnings);
@@ -122,7 +124,7 @@ Region regionOf(const Request& request, const GridTransform& transform) {
 }  // namespace
 
 PreparedScene prepareScene(const Scene& scene, const Request& request, Progress& progress,
-                           ConvertReport& report) {
+                           ConvertReport& report, Scene* usedUp) {
   report.threads = tbb::this_task_arena::max_concurrency();
   PreparedScene prepared{MemoryBudget(request.run.maxMemory)};
   MemoryBudget& budget = prepared.budget;
@@ -148,9 +150,14 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
     Parts parts;
     if (request.hasParts())
       parts = partsOf(scene, request.partBy ? *request.partBy : defaultPartBy(scene));
-    for (std::size_t i = 0; i < scene.objects.size(); ++i)
-      prepared.surfaces.push_back(
-          prepareObject(scene, request, i, transform, parts, images, budget, progress, report));
+    const bool needsInput = needsInside(request.grids, request.volume);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+      const bool isUsedUp =
+          usedUp != nullptr && !needsInput && !request.objects[i].preparation.followsTexcoords;
+      prepared.surfaces.push_back(prepareObject(scene, request, i, transform, parts, images, budget,
+                                                progress, report,
+                                                isUsedUp ? &usedUp->objects[i].mesh : nullptr));
+    }
     report.inputHash = images.hashWith(scene.inputHash);
     for (PreparedSurface& surface : prepared.surfaces)
       surface.region = request.spreadsParts() ? Region{} : prepared.region.grown(kMarginOfFeet);

@@ -29,8 +29,10 @@ struct PreparedScene {
 
 /// Prepares every object, estimates the grids, and announces the work of all stages. Reports voxel
 /// size, threads, warnings and what preparation did to each object.
+/// @param usedUp  the scene itself, of whose meshes only the attributes are needed any more; null:
+///   they stay
 /// @throws as convert, except that grids which do not fit are no error: see Estimate::refusal
 PreparedScene prepareScene(const Scene& scene, const Request& request, Progress& progress,
-                           ConvertReport& report);
+                           ConvertReport& report, Scene* usedUp = nullptr);
 
 }  // namespace vox

@@ -39,7 +39,8 @@ struct PreparedSurface {
   std::vector<std::int32_t> partOfFace = {};  ///< per face of `base`; or empty
   /// The voxels of this object alone; null if no grid needs the objects separately.
   std::shared_ptr<openvdb::MaskTree> voxels = {};
-  Region region = {};  ///< the feet of other voxels are not needed
+  Index inputCorners = 0;  ///< of the input, for the progress
+  Region region = {};      ///< the feet of other voxels are not needed
   /// Which components have no inside, and why: for a message. Empty if all have one, or nothing
   /// asks for it.
   std::string noInside = {};

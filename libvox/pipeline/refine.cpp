@@ -65,11 +65,20 @@ RepairOptions repairOptionsOf(const ObjectPreparation& preparation) {
 }
 
 /// The mesh of an object without debris, groups and attributes.
+/// @param usedUp  as in prepare
 /// @throws MeshError  nothing is left
 PolygonMesh keptMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
-                       DebrisReport& report) {
+                       DebrisReport& report, PolygonMesh* usedUp = nullptr) {
   if (preparation.dropComponents.dropsNothing()) {
     PolygonMesh mesh;
+    if (usedUp != nullptr) {
+      mesh.points = std::move(usedUp->points);
+      mesh.faceOffsets = std::move(usedUp->faceOffsets);
+      mesh.faceVertices = std::move(usedUp->faceVertices);
+      mesh.pointColors = std::move(usedUp->pointColors);
+      mesh.faceColors = std::move(usedUp->faceColors);
+      return mesh;
+    }
     mesh.points = object.mesh.points;
     mesh.faceOffsets = object.mesh.faceOffsets;
     mesh.faceVertices = object.mesh.faceVertices;
@@ -100,12 +109,12 @@ std::vector<Index> composed(const std::vector<Index>& first, const std::vector<I
 
 /// The mesh of an object made sound, and its adjacency; a warning tells what was done to it.
 PolygonMesh soundMeshOf(const SceneObject& object, const ObjectPreparation& preparation,
-                        ElementOrigin& origin, Adjacency& adjacency,
+                        PolygonMesh* usedUp, ElementOrigin& origin, Adjacency& adjacency,
                         std::vector<std::string>& warnings) {
   DebrisReport debris;
   SoundReport report;
-  PolygonMesh mesh =
-      soundMesh(keptMeshOf(object, preparation, debris), repairOptionsOf(preparation), report);
+  PolygonMesh mesh = soundMesh(keptMeshOf(object, preparation, debris, usedUp),
+                               repairOptionsOf(preparation), report);
   std::string done = summary(report);
   if (preparation.strict && !done.empty())
     throw MeshError("needs repair, which --strict forbids: " + firstAction(report) +
@@ -347,7 +356,7 @@ std::string gapsOf(const SceneObject& object, const ObjectPreparation& preparati
 
 PreparedObject prepare(const Scene& scene, const SceneObject& object,
                        const ObjectPreparation& preparation, const MemoryBudget& budget,
-                       Progress& progress) {
+                       Progress& progress, PolygonMesh* usedUp) {
   constexpr std::uint64_t kPerCorner = 4 * sizeof(EdgeCorner) + 12 * sizeof(Index);
   budget.require(bytesOf(object.mesh) + object.mesh.cornerCount() * kPerCorner,
                  "finding neighbours", "raise --max-memory");
@@ -357,7 +366,8 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
   namingObject(scene, object, [&] {
     ElementOrigin origin;
     Adjacency adjacency;
-    PolygonMesh mesh = soundMeshOf(object, preparation, origin, adjacency, prepared.warnings);
+    PolygonMesh mesh =
+        soundMeshOf(object, preparation, usedUp, origin, adjacency, prepared.warnings);
     progress.check();
     std::vector<Index> pointBeforeCut;
     std::vector<Index> seam;

@@ -56,6 +56,7 @@ std::string gapsOf(const SceneObject& object, const ObjectPreparation& preparati
 /// Prepares an object in world space: dropping of debris, repair, orientation, creases,
 /// interpolation.
 /// Credits the current stage of `progress`.
+/// @param usedUp  the mesh of the object, which is not needed any more; null: it is copied
 /// @throws UsageError  the weld tolerance is negative or not finite
 /// @throws MeshError   something had to be repaired or turned round though `strict` forbids it, or
 ///   smoothing groups or edges that should be sharp are missing though it does, nothing is left
@@ -64,7 +65,7 @@ std::string gapsOf(const SceneObject& object, const ObjectPreparation& preparati
 /// @throws Cancelled
 PreparedObject prepare(const Scene& scene, const SceneObject& object,
                        const ObjectPreparation& preparation, const MemoryBudget& budget,
-                       Progress& progress);
+                       Progress& progress, PolygonMesh* usedUp = nullptr);
 
 /// Whether the colours of a mesh are subdivided with it, or dropped.
 enum class Colors { kDropped, kKept };

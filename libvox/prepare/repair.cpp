@@ -5,6 +5,7 @@
 
 #include "libvox/core/numbered.h"
 #include "libvox/core/parallel.h"
+#include "libvox/mesh/spatial_order.h"
 #include "libvox/mesh/star_shaped.h"
 #include "libvox/mesh/validate.h"
 #include "libvox/prepare/chord.h"
@@ -223,6 +224,43 @@ bool splitConcaveFaces(Draft& draft, bool allConvex, RepairReport& report) {
   return true;
 }
 
+/// Puts the points and the faces of a scattered mesh into spatial order, so that those which are
+/// used together are near in memory.
+void putInOrder(Draft& draft) {
+  if (!isScattered(draft.mesh)) return;
+  const PolygonMesh old = std::exchange(draft.mesh, {});
+  PolygonMesh& mesh = draft.mesh;
+  const std::vector<Index> points = spatialOrder(old.points);
+  std::vector<Index> newName(points.size());
+  mesh.points.resize(points.size());
+  parallelForEach(static_cast<Index>(points.size()), kElementsPerTask, [&](Index v) {
+    newName[points[v]] = v;
+    mesh.points[v] = old.points[points[v]];
+  });
+  const auto lowestOf = [&](Index f) {
+    Index lowest = kNone;
+    for (const Index v : old.face(f)) lowest = std::min(lowest, newName[v]);
+    return lowest;
+  };
+  std::vector<std::pair<Index, Index>> faces(old.faceCount());  // lowest vertex, number
+  parallelForEach(old.faceCount(), kElementsPerTask, [&](Index f) { faces[f] = {lowestOf(f), f}; });
+  parallelSort(faces);
+  mesh.faceOffsets.reserve(old.faceOffsets.size());
+  for (const auto& [lowest, f] : faces)
+    mesh.faceOffsets.push_back(mesh.faceOffsets.back() + old.faceSize(f));
+  mesh.faceVertices.resize(old.faceVertices.size());
+  parallelForEach(old.faceCount(), kElementsPerTask, [&](Index g) {
+    Index c = mesh.faceOffsets[g];
+    for (const Index v : old.face(faces[g].second)) mesh.faceVertices[c++] = newName[v];
+  });
+  for (Index v = 0; v < points.size(); ++v) newName[v] = draft.pointOrigin[points[v]];
+  draft.pointOrigin = std::move(newName);
+  std::vector<Index> faceOrigin;
+  faceOrigin.reserve(faces.size());
+  for (const auto& [lowest, f] : faces) faceOrigin.push_back(draft.faceOrigin[f]);
+  draft.faceOrigin = std::move(faceOrigin);
+}
+
 std::pair<Index, Index> edgeOf(const Draft& draft, const Adjacency& joints, Index c) {
   return {draft.mesh.faceVertices[c], draft.mesh.faceVertices[nextCorner(draft.mesh, joints, c)]};
 }
@@ -411,6 +449,7 @@ PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport&
 
   if (options.weld) weld(draft, options.weldTolerance, report);
   cleanFaces(draft, report);
+  putInOrder(draft);
   report.joints = makeManifold(draft, options, report);
   removeUnused(draft);
   if (options.noteUnused) noteRemoved(draft, report);

@@ -92,7 +92,8 @@ std::string summary(const RepairReport& report);
 /// Faces without area but with three distinct vertices stay: Doo-Sabin can deal with them, and they
 /// connect their neighbours.
 ///
-/// Colours are dropped; soundMesh (sound.h) keeps them. Vertices and faces keep their order; copies
+/// Colours are dropped; soundMesh (sound.h) keeps them. Vertices and faces keep their order, unless
+/// a large mesh has none (isScattered): then it is put into spatial order after step 2. Copies
 /// follow at the end, in the order of their originals. A face starts at its lowest vertex. The
 /// winding of faces does not matter. Copies lie at the place of their original, so a second run
 /// that neither welds nor splits changes nothing.
