@@ -37,7 +37,7 @@ using Counts = std::map<std::uint64_t, std::uint64_t>;
 TEST_CASE("benchmark inputs are closed manifolds of one piece, wound outward", "[bench]") {
   for (const bench::Input& input : bench::inputs()) {
     CAPTURE(input.name);
-    const PolygonMesh mesh = input.make();
+    const PolygonMesh mesh = input.isLarge ? bench::scan(20) : input.make();
     const MeshSummary summary = summarize(mesh);
     CHECK(summary.defects.empty());
     CHECK(summary.boundaryLoops.empty());
@@ -57,6 +57,7 @@ TEST_CASE("benchmark inputs have the faces and valences their names state", "[be
   CHECK(faces("triangles_shuffled") == Counts{{3, 100352}});
   CHECK(valences("triangles") == valences("triangles_shuffled"));
   CHECK(faces("triangles_graded") == Counts{{3, 100352}});
+  CHECK(summarize(bench::scan(20)).faceSizes == Counts{{3, 4 * 20 * 19}});
   CHECK(faces("cone") == Counts{{3, 2000}, {2000, 1}});
   CHECK(valences("cone") == Counts{{3, 2000}, {2000, 1}});
   CHECK(faces("prism") == Counts{{4, 5000}, {5000, 2}});

@@ -542,7 +542,10 @@ TEST_CASE("a textured GLB, PLY and OBJ with MTL of one model have the same colou
   const auto colors = [&](const std::string& name, const std::string& content) {
     Conversion conversion = convert(readScene(folder.write(name, content)), colorsAt(32));
     for (const std::string& warning : conversion.report.warnings) UNSCOPED_INFO(warning);
-    CHECK(conversion.report.warnings == std::vector<std::string>{"a: welded 28 vertices"});
+    if (name == "a.glb")
+      CHECK(conversion.report.warnings.empty());
+    else
+      CHECK(conversion.report.warnings == std::vector<std::string>{"a: welded 28 vertices"});
     return test::colorOf(conversion).deepCopy();
   };
   const auto expected = colors("a.obj", obj);

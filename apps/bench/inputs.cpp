@@ -134,8 +134,7 @@ std::vector<Index> randomOrder(Index n, std::mt19937& random) {
   return order;
 }
 
-PolygonMesh trianglesShuffled() {
-  const PolygonMesh mesh = triangles();
+PolygonMesh shuffled(const PolygonMesh& mesh) {
   std::mt19937 random(1);
   const std::vector<Index> newPoint = randomOrder(mesh.pointCount(), random);
   PolygonMesh shuffled;
@@ -239,18 +238,53 @@ PolygonMesh quads() {
 
 }  // namespace
 
+PolygonMesh scan(int n) {
+  const Index around = 2 * static_cast<Index>(n);
+  PolygonMesh mesh;
+  for (int i = 1; i < n; ++i)
+    for (Index j = 0; j < around; ++j) {
+      const double t = kTau / 2 * i / n;
+      const double p = kTau * j / around;
+      const double r = 1 + 0.08 * std::sin(7 * t) * std::cos(5 * p) +
+                       0.02 * std::sin(31 * t + 0.3) * std::sin(29 * p) +
+                       0.002 * std::sin(211 * t) * std::cos(173 * p);
+      mesh.points.emplace_back(r * std::sin(t) * std::cos(p), r * std::sin(t) * std::sin(p),
+                               r * std::cos(t));
+    }
+  mesh.points.emplace_back(0, 0, 1);
+  mesh.points.emplace_back(0, 0, -1);
+  for (Vec3d& point : mesh.points) point = point.cast<float>().cast<double>();
+  const Index north = mesh.pointCount() - 2;
+  const Index south = north + 1;
+  const auto next = [&](Index j) { return (j + 1) % around; };
+  for (Index j = 0; j < around; ++j) mesh.addFace(Face{north, j, next(j)});
+  for (Index first = 0; first + around < north; first += around)
+    for (Index j = 0; j < around; ++j) {
+      const Index below = first + around;
+      mesh.addFace(Face{first + j, below + j, below + next(j)});
+      mesh.addFace(Face{first + j, below + next(j), first + next(j)});
+    }
+  const Index last = north - around;
+  for (Index j = 0; j < around; ++j) mesh.addFace(Face{south, last + next(j), last + j});
+  return mesh;
+}
+
 const std::vector<Input>& inputs() {
   static const std::vector<Input> all = {
       {"torus", "64 x 32 quads", torus},
       {"cube", "6 quads", cube},
       {"triangles", "bumpy sphere of 100352 triangles", triangles},
-      {"triangles_shuffled", "the same in random order", trianglesShuffled},
+      {"triangles_shuffled", "the same in random order", [] { return shuffled(triangles()); }},
       {"triangles_graded", "as many, edges apart by about 10", trianglesGraded},
       {"cone", "apex of 2000 triangles over a 2000-gon", cone},
       {"prism", "two 5000-gons joined by quads", prism},
       {"sliver", "flat bar of strips, each 1000 times longer than wide", sliver},
       {"graded", "spire with faces from 1 down to 1e-6 in size", graded},
       {"quads", "6144 quads, points of valence 3 to 6, sizes apart by about 10", quads},
+      {"scan_1m", "scan of 998000 triangles", [] { return scan(500); }, true},
+      {"scan_4m", "scan of 3996000 triangles", [] { return scan(1000); }, true},
+      {"scan_4m_shuffled", "the same in random order", [] { return shuffled(scan(1000)); }, true},
+      {"scan_10m", "scan of 10233600 triangles", [] { return scan(1600); }, true},
   };
   return all;
 }

@@ -13,6 +13,7 @@ struct Input {
   std::string_view name;
   std::string_view what;
   PolygonMesh (*make)();
+  bool isLarge = false;  ///< takes seconds and gigabytes
 };
 
 /// Every generated mesh, by name:
@@ -27,7 +28,15 @@ struct Input {
 ///   sliver              flat bar of 16 strips side by side, each 1000 times longer than wide
 ///   graded              tapering spire, faces from 1 down to 1e-6 in size
 ///   quads               6144 quads, points of valence 3, 4 and 6, sizes apart by about 10
+///   scan_1m             scan of 998 000 triangles; large
+///   scan_4m             of 3 996 000 triangles; large
+///   scan_4m_shuffled    the same in random order; large
+///   scan_10m            of 10 233 600 triangles; large
 const std::vector<Input>& inputs();
+
+/// A mesh like a scan of a sphere with bumps of three sizes: 4 n (n - 1) triangles between circles
+/// of latitude, positions rounded to floats.
+PolygonMesh scan(int n);
 
 /// The generated mesh with this name.
 /// @throws UsageError  there is none

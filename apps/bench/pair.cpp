@@ -79,7 +79,8 @@ void declareSuites(CLI::App& app, Options& options) {
       group
           ->add_option("--suite", options.suite,
                        "issue: vox against loading OpenVDB, CGAL and a naive program; "
-                       "hard: vox on meshes that invite a blow-up, against a torus")
+                       "hard: vox on meshes that invite a blow-up, against a torus; "
+                       "scan: vox on scans of 1, 4 and 10 million triangles, against vdb_tool")
           ->check(CLI::IsMember(suiteNames()));
   group->add_option("--only", options.only, "Only comparisons whose name contains this")
       ->needs(suite)

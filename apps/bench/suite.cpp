@@ -58,6 +58,31 @@ std::vector<Case> hardCases(const Tools& tools, const std::filesystem::path& fol
   return cases;
 }
 
+/// Scans against vdb_tool, which makes a level set of the mesh as it is.
+std::vector<Case> scanCases(const Tools& tools, const std::filesystem::path& folder) {
+  constexpr int kDim = 1024;
+  std::vector<Case> cases;
+  for (const char* name : {"scan_1m", "scan_4m", "scan_10m"}) {
+    const std::filesystem::path mesh = meshNamed(tools, name, folder, ".ply");
+    const Program mask = voxConvert(tools, mesh, kDim, folder / "vox.vdb");
+    Program levelSet = voxConvert(tools, mesh, kDim, folder / "vox.vdb", {"--grids", "surface"});
+    levelSet.name += ", level set";
+    const Program tool{"vdb_tool -mesh2ls",
+                       {"vdb_tool", "-quiet", "-read", mesh.string(), "-mesh2ls",
+                        "dim=" + std::to_string(kDim), "-write", (folder / "tool.vdb").string()}};
+    const std::string at = " at " + std::to_string(kDim) + " against vdb_tool";
+    cases.push_back({name + (", mask" + at), mask, tool});
+    cases.push_back({name + (", level set" + at), levelSet, tool});
+  }
+  const Program ordered =
+      voxConvert(tools, meshNamed(tools, "scan_4m", folder, ".ply"), kDim, folder / "vox.vdb");
+  Program random = voxConvert(tools, meshNamed(tools, "scan_4m_shuffled", folder, ".ply"), kDim,
+                              folder / "vox.vdb");
+  random.name += ", random order";
+  cases.push_back({"scan_4m in order against random order", ordered, random});
+  return cases;
+}
+
 }  // namespace
 
 Tools toolsBeside(const std::filesystem::path& self) {
@@ -80,9 +105,9 @@ Program openvdbFloor(const Tools& tools) {
 }
 
 std::filesystem::path meshNamed(const Tools& tools, const std::string& name,
-                                const std::filesystem::path& folder) {
+                                const std::filesystem::path& folder, const char* extension) {
   if (std::filesystem::is_regular_file(name)) return name;
-  const std::filesystem::path file = folder / (name + ".obj");
+  const std::filesystem::path file = folder / (name + extension);
   if (std::filesystem::exists(file)) return file;
   const ProcessRun run = runProcess({tools.inputsWriter.string(), name, file.string()}, {});
   if (run.outcome != Outcome::kOk)
@@ -92,7 +117,7 @@ std::filesystem::path meshNamed(const Tools& tools, const std::string& name,
 }
 
 const std::vector<std::string>& suiteNames() {
-  static const std::vector<std::string> names = {"issue", "hard"};
+  static const std::vector<std::string> names = {"issue", "hard", "scan"};
   return names;
 }
 
@@ -100,6 +125,7 @@ std::vector<Case> suiteCases(const std::string& name, const Tools& tools, const 
                              const std::filesystem::path& folder) {
   if (name == "issue") return issueCases(tools, user, folder);
   if (name == "hard") return hardCases(tools, folder);
+  if (name == "scan") return scanCases(tools, folder);
   throw std::invalid_argument("no suite is named '" + name + "'");
 }
 

@@ -28,9 +28,11 @@ Program openvdbFloor(const Tools& tools);
 
 /// Mesh file for a name given by the user: an existing file, or a generated mesh, which is written
 /// to the folder.
+/// @param extension  of a generated mesh
 /// @throws std::runtime_error  the name is neither
 std::filesystem::path meshNamed(const Tools& tools, const std::string& name,
-                                const std::filesystem::path& folder);
+                                const std::filesystem::path& folder,
+                                const char* extension = ".obj");
 
 /// A built-in comparison, ready to run.
 struct Case {
@@ -49,6 +51,9 @@ struct UserInput {
 ///   issue  vox against loading OpenVDB, CGAL and the naive program, on the user's mesh, torus at
 ///          2048, cube at 1024 and the even and graded triangle meshes at 256
 ///   hard   vox on the torus at 2048 against vox on each mesh that invites a blow-up
+///   scan   masks and level sets of scans of 1, 4 and 10 million triangles at 1024 against
+///   vdb_tool;
+///          a scan against the same in random order
 const std::vector<std::string>& suiteNames();
 
 /// The comparisons of a suite. Writes their meshes to the folder; their outputs go there, too.

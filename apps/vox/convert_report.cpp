@@ -133,7 +133,7 @@ std::string objectText(const ObjectReport& object) {
     text << "not voxelized: the level set is measured from the surface itself";
     return text.str();
   }
-  text << counted(object.submeshes, "submesh", "submeshes") << ", ";
+  if (object.submeshes > 0) text << counted(object.submeshes, "submesh", "submeshes") << ", ";
   if (object.byPolygons)
     text << object.polygons.triangles << " triangles after " << object.levels << " levels (until "
          << stopRuleName(object.until) << "), ";

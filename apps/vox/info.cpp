@@ -24,6 +24,9 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace vox::app {
 namespace {
@@ -126,6 +129,64 @@ Json toJson(const GridSummary& grid) {
           {"metadata", grid.metadata}};
 }
 
+/// The names of sets that have faces, each with the number of its faces.
+std::vector<std::pair<std::string, Index>> countedSets(const FaceSets& sets) {
+  std::vector<Index> counts(sets.names.size(), 0);
+  for (const Index set : sets.ofFaces)
+    if (set != kNone) ++counts[set];
+  std::vector<std::pair<std::string, Index>> all;
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    if (counts[k] > 0) all.emplace_back(sets.names[k], counts[k]);
+  return all;
+}
+
+/// The sets of faces that `vox convert --part-by` and `--split` can tell apart, and the images of
+/// materials.
+Json toJson(const MeshAttributes& attributes) {
+  const auto setsJson = [](const FaceSets& sets) {
+    Json json = Json::object();
+    for (const auto& [name, count] : countedSets(sets)) json[name] = count;
+    return json;
+  };
+  Json images = Json::array();
+  for (const Material& look : attributes.looks)
+    if (look.image) images.push_back(look.image->file);
+  return {{"objects", setsJson(attributes.objects)},
+          {"groups", setsJson(attributes.groups)},
+          {"materials", setsJson(attributes.materials)},
+          {"images", images},
+          {"texture_coordinates", !attributes.texcoords.empty()}};
+}
+
+/// The first few of some names, on one line.
+std::string namesText(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 6;
+  std::string text = std::to_string(names.size()) + ": ";
+  for (std::size_t k = 0; k < std::min(kMost, names.size()); ++k)
+    text += (k > 0 ? ", " : "") + onOneLine(names[k]);
+  return text + (names.size() > kMost ? ", ..." : "");
+}
+
+void print(const MeshAttributes& attributes) {
+  const auto line = [](const char* title, const std::vector<std::string>& names) {
+    if (!names.empty())
+      std::cout << "    " << std::left << std::setw(18) << title << namesText(names) << '\n';
+  };
+  const auto namesOf = [](const FaceSets& sets) {
+    std::vector<std::string> names;
+    for (const auto& [name, count] : countedSets(sets))
+      names.push_back(name + " (" + counted(count, "face") + ")");
+    return names;
+  };
+  line("objects", namesOf(attributes.objects));
+  line("groups", namesOf(attributes.groups));
+  line("materials", namesOf(attributes.materials));
+  std::vector<std::string> images;
+  for (const Material& look : attributes.looks)
+    if (look.image) images.push_back(look.image->file);
+  line("images", images);
+}
+
 std::string histogramText(const std::map<std::uint64_t, std::uint64_t>& histogram) {
   std::ostringstream text;
   for (const auto& [value, count] : histogram)
@@ -202,6 +263,7 @@ Json describe(const Scene& scene, std::size_t number, const ObjectPreparation& p
     Json all = {{"name", object.name}};
     all["reading"] = lossText(object.reading);
     all.update(toJson(input));
+    all["attributes"] = toJson(object.mesh.attributes);
     all["dropped"] = {{"components", debris.dropped}, {"faces", debris.droppedFaces}};
     all["repair"] = toJson(report);
     all["split"] = toJson(report.repair.faces);
@@ -214,6 +276,7 @@ Json describe(const Scene& scene, std::size_t number, const ObjectPreparation& p
     return all;
   }
   print("mesh " + object.name, input);
+  print(object.mesh.attributes);
   if (const std::string lost = lossText(object.reading); !lost.empty())
     std::cout << "    reading           " << lost << '\n';
   const std::string dropped = summary(debris);

@@ -8,6 +8,7 @@
 #include "libvox/io/gltf_materials.h"
 #include "libvox/io/gltf_value.h"
 #include "libvox/io/mesh_formats.h"
+#include "libvox/io/point_welder.h"
 #include "libvox/io/text_scanner.h"
 #include "libvox/io/unique_names.h"
 
@@ -86,6 +87,7 @@ class GltfReader {
   void add(const Instance& instance);
   Index addPoints(const Primitive& primitive, const Eigen::Affine3d& toWorld);
   void addTriangles(const Primitive& primitive, Index firstPoint, bool isMirrored);
+  void weldPoints();
   Vec2f texcoordAt(const GltfNumbers& texcoords, Index vertex);
   Vec3f colorAt(const GltfNumbers& colors, std::uint64_t vertex);
 
@@ -134,6 +136,7 @@ PolygonMesh GltfReader::read() {
   if (all.empty()) throw InputError(report_.file + ": no faces: no node of the scene has a mesh");
   checkSize(all);
   for (const Instance& instance : all) add(instance);
+  if (mesh_.pointColors.empty()) weldPoints();
   MeshAttributes& attributes = mesh_.attributes;
   attributes.objects = std::move(objects_);
   if (!materials_.looks().empty()) {
@@ -143,6 +146,18 @@ PolygonMesh GltfReader::read() {
   }
   report_.companions = file_.companions();
   return std::move(mesh_);
+}
+
+/// glTF has a vertex for each set of normal and texture coordinates at a position.
+void GltfReader::weldPoints() {
+  const auto isFinite = [](const Vec3d& point) { return point.allFinite(); };
+  if (!std::all_of(mesh_.points.begin(), mesh_.points.end(), isFinite)) return;
+  std::vector<Vec3d> points;
+  PointWelder<double> welder(points, mesh_.points.size());
+  std::vector<Index> newName(mesh_.points.size());
+  for (std::size_t v = 0; v < newName.size(); ++v) newName[v] = welder.indexOf(mesh_.points[v]);
+  for (Index& v : mesh_.faceVertices) v = newName[v];
+  mesh_.points = std::move(points);
 }
 
 void GltfReader::checkExtensions() const {

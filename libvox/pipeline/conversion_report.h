@@ -30,7 +30,7 @@ struct PolygonReport {
 struct ObjectReport {
   std::string name;
   std::uint64_t inputFaces = 0;
-  Index submeshes = 0;
+  Index submeshes = 0;             ///< 0 if fans of faces gave all vertices
   int levels = 0;                  ///< Doo-Sabin steps down to the deepest vertex
   std::uint64_t vertices = 0;      ///< vertices rounded to voxels, each at its own level
   LevelCounts verticesOfLevel{};   ///< the same, level by level

@@ -8,6 +8,7 @@
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
 #include "libvox/mesh/area_vector.h"
+#include "libvox/mesh/edge_ranges.h"
 #include "libvox/mesh/winding_forest.h"
 #include "libvox/prepare/face_order.h"
 
