@@ -109,7 +109,8 @@ PolygonMesh withCutFaces(const PolygonMesh& mesh, std::mt19937& random, double w
 }
 
 PolygonMesh roundedToFloats(PolygonMesh mesh) {
-  for (Vec3d& p : mesh.points) p = p.cast<float>().cast<double>();
+  for (Vec3d& p : mesh.points)
+    for (double& x : p) x = static_cast<float>(x);
   return mesh;
 }
 

@@ -99,18 +99,23 @@ TEST_CASE("OBJ and OFF are written with 17 digits", "[io][golden]") {
         "0.5 0 0\n3 0 1 2\n");
 }
 
-TEST_CASE("PLY is written as little-endian doubles", "[io][golden]") {
+TEST_CASE("PLY is little-endian, of floats if they are enough, else of doubles", "[io][golden]") {
   PolygonMesh mesh;
   mesh.points = {{0, 1, -2}, {0, 0, 0}, {0, 0, 0}};
   mesh.addFace(std::vector<Index>{2, 1, 0});
-  std::string expected =
-      "ply\nformat binary_little_endian 1.0\ncomment libvox\nelement vertex 3\nproperty double x\n"
-      "property double y\nproperty double z\nelement face 1\n"
-      "property list uchar int vertex_indices\nend_header\n";
-  expected += std::string(8 + 6, '\0') + "\xf0\x3f" + std::string(7, '\0') + "\xc0";
-  expected += std::string(48, '\0');
-  expected += std::string("\x03\x02\0\0\0\x01\0\0\0\0\0\0\0", 13);
-  CHECK(written(mesh, MeshFormat::kPly) == expected);
+  const auto header = [](const std::string& type) {
+    return "ply\nformat binary_little_endian 1.0\ncomment libvox\nelement vertex 3\nproperty " +
+           type + " x\nproperty " + type + " y\nproperty " + type +
+           " z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  };
+  const std::string face("\x03\x02\0\0\0\x01\0\0\0\0\0\0\0", 13);
+  const auto zeros = [](std::size_t count) { return std::string(count, '\0'); };
+  CHECK(written(mesh, MeshFormat::kPly) ==
+        header("float") + zeros(6) + "\x80\x3f" + zeros(3) + "\xc0" + zeros(24) + face);
+  mesh.points[0].x() = 1 + 0x1p-40;  // a double between two floats
+  CHECK(written(mesh, MeshFormat::kPly) == header("double") + zeros(1) + "\x10" + zeros(4) +
+                                               "\xf0\x3f" + zeros(6) + "\xf0\x3f" + zeros(7) +
+                                               "\xc0" + zeros(48) + face);
 }
 
 TEST_CASE("writing and reading back gives the same bits", "[io][property]") {

@@ -253,7 +253,8 @@ PolygonMesh scan(int n) {
     }
   mesh.points.emplace_back(0, 0, 1);
   mesh.points.emplace_back(0, 0, -1);
-  for (Vec3d& point : mesh.points) point = point.cast<float>().cast<double>();
+  for (Vec3d& point : mesh.points)
+    for (double& x : point) x = static_cast<float>(x);
   const Index north = mesh.pointCount() - 2;
   const Index south = north + 1;
   const auto next = [&](Index j) { return (j + 1) % around; };

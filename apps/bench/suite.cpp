@@ -65,8 +65,10 @@ std::vector<Case> scanCases(const Tools& tools, const std::filesystem::path& fol
   for (const char* name : {"scan_1m", "scan_4m", "scan_10m"}) {
     const std::filesystem::path mesh = meshNamed(tools, name, folder, ".ply");
     const Program mask = voxConvert(tools, mesh, kDim, folder / "vox.vdb");
-    Program levelSet = voxConvert(tools, mesh, kDim, folder / "vox.vdb", {"--grids", "surface"});
-    levelSet.name += ", level set";
+    const Program levelSet{
+        "vox convert, level set",
+        {tools.vox.string(), "convert", mesh.string(), "-o", (folder / "vox.vdb").string(), "--dim",
+         std::to_string(kDim), "--grids", "surface", "--force"}};
     const Program tool{"vdb_tool -mesh2ls",
                        {"vdb_tool", "-quiet", "-read", mesh.string(), "-mesh2ls",
                         "dim=" + std::to_string(kDim), "-write", (folder / "tool.vdb").string()}};

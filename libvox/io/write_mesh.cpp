@@ -138,6 +138,7 @@ void writeOff(Writer& out, const PolygonMesh& mesh) {
 
 // Whether wider types than the common ones are needed. Some readers know only the common ones.
 struct PlyTypes {
+  bool doubles;      // rather than floats
   bool wideCounts;   // uint rather than uchar
   bool wideIndices;  // uint rather than int
 };
@@ -145,7 +146,12 @@ struct PlyTypes {
 PlyTypes plyTypesFor(const PolygonMesh& mesh) {
   Index largest = 0;
   for (Index f = 0; f < mesh.faceCount(); ++f) largest = std::max(largest, mesh.faceSize(f));
-  return {largest > 255, mesh.points.size() > std::size_t{1} << 31};
+  const auto isFloat = [](const Vec3d& point) {
+    return std::all_of(point.begin(), point.end(),
+                       [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
+  };
+  const bool doubles = !std::all_of(mesh.points.begin(), mesh.points.end(), isFloat);
+  return {doubles, largest > 255, mesh.points.size() > std::size_t{1} << 31};
 }
 
 constexpr const char* kPlyColor = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -160,7 +166,11 @@ void writeBytes(Writer& out, const std::vector<Vec3f>& colors, Index element) {
 void writePlyHeader(Writer& out, const PolygonMesh& mesh, PlyTypes types) {
   out.text("ply\nformat binary_little_endian 1.0\ncomment libvox\nelement vertex ");
   out.count(mesh.pointCount());
-  out.text("\nproperty double x\nproperty double y\nproperty double z\n");
+  for (const char* axis : {"x", "y", "z"}) {
+    out.text(types.doubles ? "\nproperty double " : "\nproperty float ");
+    out.text(axis);
+  }
+  out.text("\n");
   if (!mesh.pointColors.empty()) out.text(kPlyColor);
   out.text("element face ");
   out.count(mesh.faceCount());
@@ -176,7 +186,11 @@ void writePly(Writer& out, const PolygonMesh& mesh) {
   const PlyTypes types = plyTypesFor(mesh);
   writePlyHeader(out, mesh, types);
   for (Index v = 0; v < mesh.pointCount(); ++v) {
-    for (const double x : mesh.points[v]) out.binary(x);
+    for (const double x : mesh.points[v])
+      if (types.doubles)
+        out.binary(x);
+      else
+        out.binary(static_cast<float>(x));
     writeBytes(out, mesh.pointColors, v);
     out.endItem();
   }

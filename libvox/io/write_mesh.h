@@ -16,8 +16,8 @@ MeshFormat meshFormatFor(const std::filesystem::path& file);
 /// Writes the points and faces of a mesh, and their colours as sRGB: those of points behind the
 /// coordinates (OBJ, COFF: 0 to 1; PLY: uchar), those of faces in OFF and PLY. OBJ has no colours
 /// of faces: they are left out. Text formats have 17 significant digits, PLY has binary
-/// little-endian doubles, so that reading the file gives the same bits. Equal meshes give equal
-/// bytes.
+/// little-endian doubles, or floats if all coordinates are floats, so that reading the file gives
+/// the same bits. Equal meshes give equal bytes.
 /// @throws IoError  the stream fails
 void writeMesh(std::ostream& out, const PolygonMesh& mesh, MeshFormat format);
 
