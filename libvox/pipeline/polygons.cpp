@@ -131,6 +131,15 @@ void scanLevel(SubdivisionLevel base, int levels, MemoryBudget& budget, Progress
   scanFaces(mesh, progress, sinks);
 }
 
+/// Whether level 1 is built as a whole: of a dense mesh, submeshes cost more than its polygons.
+bool isWholeCheaper(const SubdivisionLevel& base, const StopRule& until,
+                    const MemoryBudget& budget) {
+  constexpr Index kDense = 1 << 16;  // faces
+  if (until.levels != 1 || base.mesh.faceCount() < kDense || !base.seam.empty()) return false;
+  const std::uint64_t level = bytesOf(base) + bytesOfImage(base) + bytesOfNextTopology(base);
+  return 2 * level < budget.left();
+}
+
 }  // namespace
 
 void markPolygons(SubdivisionLevel base, const StopRule& until, const SurfaceOptions& options,
@@ -140,7 +149,10 @@ void markPolygons(SubdivisionLevel base, const StopRule& until, const SurfaceOpt
   budget.take(grid.memoryBytes(), "the grid", "use larger voxels, or raise --max-memory");
   ScanSinks sinks([&] { return ScanSink(grid, separation, progress, sinks); });
   const bool levelsOnly = until == StopRule{until.levels};
-  if (until.levels == 0 || (levelsOnly && options.localize == Localize::kOff)) {
+  const bool isWhole =
+      options.localize == Localize::kOff ||
+      (options.localize == Localize::kDuring && isWholeCheaper(base, until, budget));
+  if (until.levels == 0 || (levelsOnly && isWhole)) {
     report.levels = *until.levels;
     scanLevel(std::move(base), report.levels, budget, progress, grid, sinks);
   } else {
