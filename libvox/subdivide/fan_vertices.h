@@ -36,7 +36,9 @@ class FanVertices {
   void flush(SurfaceSink& sink);
 
   /// Vertices that emit makes are nearer to their vertex of the mesh than this (L-inf, voxels).
-  static constexpr double kReach = 8;
+  /// Patches have steps of at most 2^3 voxels. A corner of a quad is as far from its centroid as 2
+  /// steps, and 4 times the twist of its images, which is at most half a step.
+  static constexpr double kReach = 64;
 
  private:
   static constexpr Index kMostSides = 8;
