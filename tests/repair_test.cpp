@@ -1,7 +1,6 @@
 #include "libvox/prepare/repair.h"
 
 #include "libvox/core/error.h"
-#include "libvox/core/numbered.h"
 #include "libvox/mesh/spatial_order.h"
 #include "libvox/prepare/chord.h"
 #include "libvox/prepare/face_order.h"
@@ -416,19 +415,7 @@ TEST_CASE(
     "[repair]") {
   const PolygonMesh ordered = test::torusGrid(256, 300);
   CHECK_FALSE(isScattered(ordered));
-  std::mt19937 random(7);
-  std::vector<Index> newName = numbered(ordered.pointCount());
-  std::vector<Index> faces = numbered(ordered.faceCount());
-  std::shuffle(newName.begin(), newName.end(), random);
-  std::shuffle(faces.begin(), faces.end(), random);
-  PolygonMesh mesh;
-  mesh.points.resize(ordered.points.size());
-  for (Index v = 0; v < newName.size(); ++v) mesh.points[newName[v]] = ordered.points[v];
-  for (const Index f : faces) {
-    std::vector<Index> face;
-    for (const Index v : ordered.face(f)) face.push_back(newName[v]);
-    mesh.addFace(face);
-  }
+  PolygonMesh mesh = test::shuffled(ordered, 7);
   CHECK(isScattered(mesh));
   mesh.addFace(mesh.face(5));  // a fault, to be named
 

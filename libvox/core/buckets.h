@@ -17,9 +17,11 @@ class Buckets {
  public:
   /// Calls forEachOf(i, put) for each i in [0, count), twice, from any thread. It calls put(bucket,
   /// item) for its items, fewer than 2^32 in all, with bucket < `buckets`, the same both times.
+  /// @param grain  numbers i of a task; each task has a count for each bucket
   template <class ForEachOf>
-  Buckets(Index count, Index buckets, ForEachOf&& forEachOf) {
-    const std::size_t perBlock = std::max<std::size_t>(kLeastPerBlock, std::size_t{16} * buckets);
+  Buckets(Index count, Index buckets, ForEachOf&& forEachOf, std::size_t grain = 0) {
+    const std::size_t perBlock =
+        grain > 0 ? grain : std::max<std::size_t>(kLeastPerBlock, std::size_t{16} * buckets);
     const std::size_t blocks = (count + perBlock - 1) / perBlock;
     const auto forEachOfBlock = [&](std::size_t block, auto&& put) {
       const std::size_t end = std::min<std::size_t>(count, (block + 1) * perBlock);

@@ -8,6 +8,7 @@
 
 #include "libvox/io/binary_stl.h"
 
+#include "libvox/core/buckets.h"
 #include "libvox/core/parallel.h"
 #include "libvox/io/byte_order.h"
 #include "libvox/io/file_colors.h"
@@ -92,50 +93,33 @@ void readFacets(std::string_view data, std::uint64_t begin, std::uint64_t end, I
   }
 }
 
-// The points of all blocks, numbered one after another, dealt to buckets by their hash: so each
-// bucket can be welded by itself.
-struct DealtPoints {
-  struct Item {
-    Vec3f position;
-    Index number;
-  };
-  std::vector<Item> items;          // bucket by bucket, in each by number
-  std::vector<std::size_t> starts;  // of the buckets, and the end
+// A point of a block, and its number among the points of all blocks.
+struct NumberedPoint {
+  Vec3f position;
+  Index number;
 };
 
-DealtPoints deal(const std::vector<FacetBlock>& blocks, const std::vector<std::size_t>& numbers) {
+// Points by their hash: so each bucket can be welded by itself.
+Buckets<NumberedPoint> deal(const std::vector<FacetBlock>& blocks,
+                            const std::vector<std::size_t>& numbers) {
   constexpr unsigned kBucketBits = 7;
-  constexpr std::size_t kBuckets = std::size_t{1} << kBucketBits;
-  const auto bucketOf = [](const Vec3f& position) {
-    return PointWelder<float>::hash(position) >> (64 - kBucketBits);
-  };
-  std::vector<std::size_t> places(kBuckets * blocks.size());  // by bucket, in each by block
-  parallelForEach(blocks.size(), 1, [&](std::size_t b) {
-    for (const Vec3f& position : blocks[b].points) ++places[bucketOf(position) * blocks.size() + b];
-  });
-  std::exclusive_scan(places.begin(), places.end(), places.begin(), std::size_t{0});
-  DealtPoints dealt;
-  for (std::size_t bucket = 0; bucket < kBuckets && !blocks.empty(); ++bucket)
-    dealt.starts.push_back(places[bucket * blocks.size()]);
-  dealt.starts.push_back(numbers.back());
-  dealt.items.resize(numbers.back());
-  parallelForEach(blocks.size(), 1, [&](std::size_t b) {
+  const auto dealBlock = [&](Index b, auto&& put) {
     auto number = static_cast<Index>(numbers[b]);
     for (const Vec3f& position : blocks[b].points)
-      dealt.items[places[bucketOf(position) * blocks.size() + b]++] = {position, number++};
-  });
-  return dealt;
+      put(static_cast<Index>(PointWelder<float>::hash(position) >> (64 - kBucketBits)),
+          NumberedPoint{position, number++});
+  };
+  return {static_cast<Index>(blocks.size()), Index{1} << kBucketBits, dealBlock, 1};
 }
 
 // For each point of all blocks, the first one that is equal.
-std::vector<Index> firstEquals(const DealtPoints& dealt) {
-  std::vector<Index> firsts(dealt.items.size());
-  parallelForEach(dealt.starts.size() - 1, 1, [&](std::size_t bucket) {
+std::vector<Index> firstEquals(const Buckets<NumberedPoint>& dealt, std::size_t count) {
+  std::vector<Index> firsts(count);
+  parallelForEach(dealt.size(), 1, [&](Index bucket) {
     std::vector<Vec3f> points;
     std::vector<Index> numbers;
-    PointWelder<float> welder(points, dealt.starts[bucket + 1] - dealt.starts[bucket]);
-    for (std::size_t i = dealt.starts[bucket]; i < dealt.starts[bucket + 1]; ++i) {
-      const auto& [position, number] = dealt.items[i];
+    PointWelder<float> welder(points, dealt[bucket].size());
+    for (const auto& [position, number] : dealt[bucket]) {
       const Index point = welder.indexOf(position);
       if (point == numbers.size()) numbers.push_back(number);
       firsts[number] = numbers[point];
@@ -150,7 +134,7 @@ void joinFacets(const std::vector<FacetBlock>& blocks, std::uint64_t facetsPerBl
                 PolygonMesh& mesh) {
   std::vector<std::size_t> starts = {0};  // of the points of each block, and the end
   for (const FacetBlock& block : blocks) starts.push_back(starts.back() + block.points.size());
-  const std::vector<Index> firsts = firstEquals(deal(blocks, starts));
+  const std::vector<Index> firsts = firstEquals(deal(blocks, starts), starts.back());
 
   std::vector<std::size_t> newStarts(blocks.size() + 1);  // of the points not seen before
   parallelForEach(blocks.size(), 1, [&](std::size_t b) {
