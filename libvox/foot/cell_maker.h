@@ -2,15 +2,16 @@
 
 #include "libvox/foot/cell.h"
 #include "libvox/foot/ribbon.h"
+#include "libvox/mesh/limit_piece.h"
 
 #include <cstdint>
 
 namespace vox {
 
 struct CellOptions {
-  float reach = 3;           ///< largest distance of interest, voxels
-  bool polynomials = true;   ///< make polynomial cells where they are precise enough
-  double tolerance = 0.003;  ///< of the pieces around extraordinary faces (limit_walk.h), voxels
+  float reach = 3;          ///< largest distance of interest, voxels
+  bool polynomials = true;  ///< make polynomial cells where they are precise enough
+  PieceTolerance tolerance = {.small = 0.02, .large = 0.003};
   float newtonStop = 0.15F;  ///< a shorter step of Newton's method is the last one, voxels
   bool creases = false;      ///< boundary sides are sides of creases (DESIGN section 19)
   bool places = true;        ///< cells need their places; without them there are fewer cells

@@ -40,7 +40,8 @@ constexpr float kLeastOverlapInside = 0.1F;  // where the foot says inside
 /// it does not cross them, the solid voxels tell.
 constexpr float kMostCrossed = 1;  // voxels
 
-constexpr float kLargestBall = 3;  // voxels
+constexpr float kLargestBall = 3;      // voxels
+constexpr float kLeastChange = 0.25F;  // voxels, where the hidden surface goes on
 
 float distanceBetween(const Coord& a, const Coord& b) {
   const Coord d = a - b;
@@ -341,12 +342,15 @@ class Exposure {
     return changes;
   }
 
-  /// A box around the voxels that had been active and have changed.
-  static openvdb::CoordBBox changesOf(const NewLeaf& changed) {
+  /// A box around the voxels that had been active and have changed so much that they were near a
+  /// hidden surface, which may go on beside them. Smaller changes are gaps between balls.
+  openvdb::CoordBBox changesOf(const NewLeaf& changed) const {
+    const float least = kLeastChange * voxelSize_;
     openvdb::CoordBBox box;
     const float* old = changed.leaf->buffer().data();
     for (auto voxel = changed.leaf->cbeginValueOn(); voxel; ++voxel)
-      if (changed.values[voxel.pos()] != old[voxel.pos()]) box.expand(voxel.getCoord());
+      if (std::abs(changed.values[voxel.pos()] - old[voxel.pos()]) > least)
+        box.expand(voxel.getCoord());
     return box;
   }
 

@@ -40,10 +40,8 @@ class FeetOfBin {
   /// @param handicap  voxels, added to the distances
   void keepNearest(const Feet& feet, const BinnedCell& cell, float handicap) {
     for (std::size_t i = 0; i < feet.count; ++i) {
-      const auto x = static_cast<unsigned>(feet.x[i]), y = static_cast<unsigned>(feet.y[i]),
-                 z = static_cast<unsigned>(feet.z[i]);
-      LeafFeet& leaf = leaves_[leafOf(x, y, z)];
-      const unsigned voxel = voxelInLeaf(x, y, z);
+      LeafFeet& leaf = leaves_[feet.leaf(i)];
+      const unsigned voxel = feet.voxelOfLeaf(i);
       const std::uint64_t bit = std::uint64_t{1} << (voxel & 63U);
       std::uint64_t& found = leaf.found[voxel >> 6];
       const float t = feet.t[i] + std::copysign(handicap, feet.t[i]);

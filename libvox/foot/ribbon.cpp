@@ -93,16 +93,32 @@ int segmentsOf(const LimitPiece& piece, int from, double length) {
   return std::max(1, static_cast<int>(std::ceil(std::min(count, 1.0 + kMostSegments))));
 }
 
-/// A bound of the width of a piece that costs little: twice its area by its length.
-bool mayBeNarrow(const LimitPiece& piece) {
-  const auto& p = piece.points;
-  const Vec3d u = (p[2][1] - p[0][1]) / 2.0;
-  const Vec3d v = (p[1][2] - p[1][0]) / 2.0;
-  const double longest = std::max(u.norm(), v.norm());
-  const double area = u.cross(v).norm();
-  const double longestPath = 2 * longest;
-  return area <= 2 * kMostWidth * longest && longest > 2 * kMostWidth &&
-         area <= 2 * longestPath / kLeastSlenderness * longest;
+/// The middle of a path of two straight steps.
+Vec3d middleOfPath(const Vec3d& start, const Vec3d& turn, const Vec3d& end) {
+  const double first = (turn - start).norm();
+  const double second = (end - turn).norm();
+  const double half = (first + second) / 2;
+  if (first >= half) return start + (first > 0 ? half / first : 0) * (turn - start);
+  return turn + (half - first) / second * (end - turn);
+}
+
+/// A test that costs little: the width in the middle between the corners, if its sides are
+/// straight.
+bool mayBeNarrow(const LimitPiece& piece, int from) {
+  constexpr double kMostBend = 1.3;  // the width of straight sides, at most
+  const auto corner = [&](std::size_t u, std::size_t v) -> Vec3d {
+    const auto& p = piece.points;
+    return (p[u][v] + p[u + 1][v] + p[u][v + 1] + p[u + 1][v + 1]) / 4.0;
+  };
+  const std::size_t first = from == 0 ? 0 : 1;
+  const Vec3d start = corner(first, 0), end = corner(1 - first, 1);
+  const Vec3d right = corner(1 - first, 0), left = corner(first, 1);
+  const double length = std::max((right - start).norm() + (end - right).norm(),
+                                 (left - start).norm() + (end - left).norm());
+  if (length <= 2 * kMostWidth) return false;
+  const double mostWidth = kMostBend * std::min(kMostWidth, length / kLeastSlenderness);
+  const Vec3d width = middleOfPath(start, right, end) - middleOfPath(start, left, end);
+  return width.squaredNorm() <= mostWidth * mostWidth;
 }
 
 /// Points without a normal take the one of the nearest point that has one.
@@ -123,8 +139,8 @@ void fillNormals(std::vector<RibbonPoint>& points) {
 }  // namespace
 
 bool Ribbon::set(const LimitPiece& piece, bool crease) {
-  if (!mayBeNarrow(piece)) return false;
   for (const int from : {0, 1}) {
+    if (!mayBeNarrow(piece, from)) continue;
     const BorderPath a(piece, from, true);
     const BorderPath b(piece, from, false);
     const double length = std::max(a.length(), b.length());

@@ -11,9 +11,7 @@ void scanCells(const FootBins& bins, std::span<const BinnedCell> cells, bool uns
                const WantedFeet* wanted, Feet& feet, FootBrick& brick) {
   const auto keep = [&](const Feet& found) {
     for (std::size_t i = 0; i < found.count; ++i) {
-      const auto x = static_cast<unsigned>(found.x[i]), y = static_cast<unsigned>(found.y[i]),
-                 z = static_cast<unsigned>(found.z[i]);
-      const unsigned leaf = leafOf(x, y, z), voxel = voxelInLeaf(x, y, z);
+      const unsigned leaf = found.leaf(i), voxel = found.voxelOfLeaf(i);
       const float t = found.t[i];
       const std::uint32_t key = keyOf(unsignedDistance ? std::abs(t) : t);
       if (wanted != nullptr && key < wanted->least[leaf][voxel]) continue;

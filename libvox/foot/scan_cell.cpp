@@ -175,6 +175,46 @@ void solveTriangle(const TriangleCell& cell, const Float3& shift, Feet& feet) {
   }
 }
 
+/// @return whether the walk is at its end
+bool gatherRows(const PrismRows& rows, RowsPlace& at, Feet& feet) {
+  const D d;
+  const hn::RebindToUnsigned<D> du;
+  constexpr std::size_t kMostOfGroup = std::size_t{PrismRows::kGroup} * kBinSide;
+  PrismRows::Group first, last;
+  std::size_t count = feet.count;
+  bool isFull = false;
+  for (; at.x <= rows.high[0]; ++at.x, at.y8 = rows.low[1] & ~7) {
+    const V x = set(static_cast<float>(at.x));
+    for (; at.y8 <= rows.high[1]; at.y8 += PrismRows::kGroup) {
+      isFull = count + kMostOfGroup > Feet::kMost;
+      if (isFull) break;
+      rows.rowsAt(at.x, at.y8, first, last);
+      const auto ux = static_cast<unsigned>(at.x), uy = static_cast<unsigned>(at.y8);
+      const unsigned start = leafOf(ux, uy, 0) << 9 | voxelInLeaf(ux, uy, 0);
+      for (unsigned r = 0; r < PrismRows::kGroup; ++r) {
+        if (!(first[r] <= last[r])) continue;
+        const V y = set(static_cast<float>(at.y8 + static_cast<int>(r)));
+        const auto low = static_cast<unsigned>(first[r]);
+        const auto voxels = static_cast<unsigned>(last[r]) - low + 1;
+        for (unsigned i = 0; i < voxels; i += static_cast<unsigned>(hn::Lanes(d))) {
+          const auto z = hn::Iota(du, low + i);
+          const auto number =
+              hn::Or(hn::Set(du, start | r << 3),
+                     hn::Or(hn::ShiftLeft<9>(hn::ShiftRight<3>(z)), hn::And(z, hn::Set(du, 7U))));
+          hn::StoreU(x, d, feet.x.data() + count + i);
+          hn::StoreU(y, d, feet.y.data() + count + i);
+          hn::StoreU(hn::Iota(d, first[r] + static_cast<float>(i)), d, feet.z.data() + count + i);
+          hn::StoreU(number, du, feet.voxel.data() + count + i);
+        }
+        count += voxels;
+      }
+    }
+    if (isFull) break;
+  }
+  feet.count = count;
+  return !isFull;
+}
+
 /// Terms of a cubic for fixed x: in y and z. For fixed y, too: in z.
 struct Slice {
   std::array<float, 4> constant;   // of 1 y y^2 y^3
@@ -279,6 +319,7 @@ namespace {
 
 HWY_EXPORT(solve);
 HWY_EXPORT(solveTriangle);
+HWY_EXPORT(gatherRows);
 HWY_EXPORT(scan);
 
 Float3 shiftOf(const Prism& prism, const openvdb::Coord& binOrigin) {
@@ -289,9 +330,8 @@ Float3 shiftOf(const Prism& prism, const openvdb::Coord& binOrigin) {
 
 /// Sets the places that only fill the last vector up.
 void fillUp(Feet& feet) {
-  constexpr std::size_t kLanes = 8;
   for (auto* column : {&feet.x, &feet.y, &feet.z})
-    std::fill_n(column->begin() + static_cast<std::ptrdiff_t>(feet.count), kLanes,
+    std::fill_n(column->begin() + static_cast<std::ptrdiff_t>(feet.count), Feet::kSlack,
                 (*column)[feet.count - 1]);
 }
 
@@ -305,6 +345,23 @@ void solveFeet(const NewtonCell& cell, const openvdb::Coord& binOrigin, Feet& fe
 void solveFeet(const TriangleCell& cell, const openvdb::Coord& binOrigin, Feet& feet) {
   fillUp(feet);
   HWY_DYNAMIC_DISPATCH(solveTriangle)(cell, shiftOf(cell.prism, binOrigin), feet);
+}
+
+bool gather(const PrismRows& rows, RowsPlace& at, Feet& feet) {
+  return HWY_DYNAMIC_DISPATCH(gatherRows)(rows, at, feet);
+}
+
+void keepWanted(const BinMask& wanted, Feet& feet) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < feet.count; ++i) {
+    const std::uint32_t voxel = feet.voxel[i];
+    feet.x[count] = feet.x[i];
+    feet.y[count] = feet.y[i];
+    feet.z[count] = feet.z[i];
+    feet.voxel[count] = voxel;
+    count += wanted[voxel >> 9][voxel >> 6 & 7U] >> (voxel & 63U) & 1U;
+  }
+  feet.count = count;
 }
 
 void scanPolynomials(const PolynomialCell& cell, const openvdb::Coord& binOrigin,

@@ -9,17 +9,31 @@
 
 namespace vox {
 
+/// Index of the leaf of a voxel in its bin, and of the voxel in its leaf.
+inline unsigned leafOf(unsigned x, unsigned y, unsigned z) {
+  return (x >> 3) << 4 | (y >> 3) << 2 | z >> 3;
+}
+inline unsigned voxelInLeaf(unsigned x, unsigned y, unsigned z) {
+  return (x & 7U) << 6 | (y & 7U) << 3 | (z & 7U);
+}
+
 /// Some voxels near a cell, relative to the lowest voxel of a bin, and their feet.
 struct Feet {
-  static constexpr std::size_t kMost = 512;
-  using Column = std::array<float, kMost + kBinSide>;
-  alignas(64) Column x;
-  alignas(64) Column y;
-  alignas(64) Column z;
-  alignas(64) Column t;  ///< distance, negative inside
-  alignas(64) Column a;
-  alignas(64) Column b;
+  static constexpr std::size_t kMost = 1024;
+  static constexpr std::size_t kSlack = 8;  ///< vectors are stored whole
+  template <class Number>
+  using Column = std::array<Number, kMost + kSlack>;
+  alignas(64) Column<float> x;
+  alignas(64) Column<float> y;
+  alignas(64) Column<float> z;
+  alignas(64) Column<std::uint32_t> voxel;  ///< leafOf << 9 | voxelInLeaf
+  alignas(64) Column<float> t;              ///< distance, negative inside
+  alignas(64) Column<float> a;
+  alignas(64) Column<float> b;
   std::size_t count = 0;
+
+  unsigned leaf(std::size_t i) const { return voxel[i] >> 9; }
+  unsigned voxelOfLeaf(std::size_t i) const { return voxel[i] & 511U; }
 };
 
 /// Finds the feet of the voxels within the cell: a, b in -1 .. 1, and t, the distance to the
@@ -40,13 +54,16 @@ void scanPolynomials(const PolynomialCell& cell, const openvdb::Coord& binOrigin
 /// Bits of the voxels of each leaf of a bin: bit y << 3 | z of word x.
 using BinMask = std::array<std::array<std::uint64_t, 8>, FootBrick::kLeaves>;
 
-/// Index of the leaf of a voxel in its bin, and of the voxel in its leaf.
-inline unsigned leafOf(unsigned x, unsigned y, unsigned z) {
-  return (x >> 3) << 4 | (y >> 3) << 2 | z >> 3;
-}
-inline unsigned voxelInLeaf(unsigned x, unsigned y, unsigned z) {
-  return (x & 7U) << 6 | (y & 7U) << 3 | (z & 7U);
-}
+/// Where a walk over the rows of a prism goes on.
+struct RowsPlace {
+  int x, y8;
+};
+
+/// Adds voxels of a prism to `feet`, as many as there is place for, from `at` on.
+/// @return whether these were the last ones
+bool gather(const PrismRows& rows, RowsPlace& at, Feet& feet);
+/// Takes voxels out that are not wanted.
+void keepWanted(const BinMask& wanted, Feet& feet);
 
 /// Calls visit(feet) with the feet of all voxels of a bin in the prism of a cell, some at a time.
 /// @param wanted  if not null, only these voxels
@@ -55,40 +72,15 @@ void scanFeet(const Cell& cell, const openvdb::Coord& binOrigin, const BinMask* 
               Visit&& visit) {
   const PrismRows rows(cell.prism, binOrigin);
   if (rows.empty()) return;
-  const auto flush = [&] {
-    if (feet.count == 0) return;
+  RowsPlace at = {rows.low[0], rows.low[1] & ~7};
+  for (bool done = false; !done;) {
+    feet.count = 0;
+    done = gather(rows, at, feet);
+    if (wanted != nullptr) keepWanted(*wanted, feet);
+    if (feet.count == 0) continue;
     solveFeet(cell, binOrigin, feet);
     visit(feet);
-    feet.count = 0;
-  };
-  const auto add = [&](int x, int y, int z) {
-    feet.x[feet.count] = static_cast<float>(x);
-    feet.y[feet.count] = static_cast<float>(y);
-    feet.z[feet.count] = static_cast<float>(z);
-    ++feet.count;
-  };
-  PrismRows::Group first, last;
-  for (int x = rows.low[0]; x <= rows.high[0]; ++x)
-    for (int y8 = rows.low[1] & ~7; y8 <= rows.high[1]; y8 += PrismRows::kGroup) {
-      rows.rowsAt(x, y8, first, last);
-      for (int r = 0; r < PrismRows::kGroup; ++r) {
-        const int z0 = static_cast<int>(first[static_cast<std::size_t>(r)]);
-        const int z1 = static_cast<int>(last[static_cast<std::size_t>(r)]);
-        if (z0 > z1) continue;
-        if (feet.count + kBinSide > Feet::kMost) flush();
-        const int y = y8 + r;
-        for (int z = z0; z <= z1; ++z) {
-          if (wanted != nullptr) {
-            const auto ux = static_cast<unsigned>(x), uy = static_cast<unsigned>(y),
-                       uz = static_cast<unsigned>(z);
-            if (((*wanted)[leafOf(ux, uy, uz)][ux & 7U] >> ((uy & 7U) << 3 | (uz & 7U)) & 1U) == 0)
-              continue;
-          }
-          add(x, y, z);
-        }
-      }
-    }
-  flush();
+  }
 }
 
 }  // namespace vox

@@ -41,6 +41,14 @@ struct LimitPiece {
   CornerSquare square = {};
 };
 
+/// Largest distances, along the normal, between the limit surface and pieces that treat a face as a
+/// quad, in voxels.
+struct PieceTolerance {
+  double small;  ///< where the pieces of level 1 have sides of at most kSmallPiece
+  double large;  ///< elsewhere
+};
+inline constexpr double kSmallPiece = 2.5;  // voxels
+
 /// Receives the pieces of a limit surface.
 class LimitSink {
  public:

@@ -16,9 +16,10 @@
 namespace vox {
 namespace {
 
-constexpr double kFootTolerance = 0.007;  // voxels: a foot need not be as near as a distance
-constexpr float kMoreReach = 4;           // times as far in the next pass
-constexpr float kMostReach = 4000;        // voxels
+// A foot need not be as near as a distance.
+constexpr PieceTolerance kFootTolerance = {.small = 0.02, .large = 0.007};
+constexpr float kMoreReach = 4;     // times as far in the next pass
+constexpr float kMostReach = 4000;  // voxels
 
 FootSurfaces::Flat flatTriangles(const PolygonMesh& mesh) {
   FootSurfaces::Flat flat;

@@ -78,8 +78,9 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
   constexpr double kPartOfSize = 1e-3;
   CellOptions cellOptions = options_;
   cellOptions.creases = !surface.base.seam.empty();
-  cellOptions.tolerance =
-      std::min(options_.tolerance, kPartOfSize * usedBox(surface.base.mesh).longestSide());
+  const double mostTolerance = kPartOfSize * usedBox(surface.base.mesh).longestSide();
+  for (double* tolerance : {&cellOptions.tolerance.small, &cellOptions.tolerance.large})
+    *tolerance = std::min(*tolerance, mostTolerance);
   std::optional<WholeVertices> whole;
   if (!options_.places) whole.emplace(surface.base);
   const auto walkOfThread = [&] {

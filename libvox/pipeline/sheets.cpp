@@ -72,7 +72,9 @@ std::vector<bool> haveInside(const PreparedSurface& surface,
   constexpr double kCoarse = 0.25;  // voxels
   runSubmeshes(
       cutIntoSubmeshes(surface.base, surface.options), progress, 0,
-      [&] { return std::make_unique<LimitWalk>(surface.base, kCoarse); },
+      [&] {
+        return std::make_unique<LimitWalk>(surface.base, PieceTolerance{kCoarse, kCoarse});
+      },
       [&](const std::unique_ptr<LimitWalk>& walk, const SubmeshTask& task) {
         walk->emit(task.faces, count);
       });

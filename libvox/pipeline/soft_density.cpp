@@ -357,7 +357,10 @@ class SoftDensity {
   void visitFeetOf(const openvdb::MaskTree& voxels, const FacesOfSurfaces& faces, float reach,
                    double part, const VisitLeafFeet& visit) {
     constexpr double kPartOfCells = 0.3;
-    FootCells cells({.reach = reach, .polynomials = false, .tolerance = 0.01, .newtonStop = 0.02F},
+    FootCells cells({.reach = reach,
+                     .polynomials = false,
+                     .tolerance = {.small = 0.02, .large = 0.01},
+                     .newtonStop = 0.02F},
                     &voxels == &near_ ? std::vector<openvdb::Coord>{} : binsOf(voxels), budget_);
     for (std::size_t s = 0; s < surfaces_.size(); ++s)
       if (!faces[s].empty())

@@ -55,6 +55,15 @@ double errorAsQuad(const Patch& patch, bool inF, const Vec3d& image, std::size_t
   return perDifference * std::max(largest, weightAlong * difference.norm());
 }
 
+/// The tolerance of the pieces of a vertex of level 1.
+double toleranceOf(const Patch& patch, const PieceTolerance& tolerance) {
+  constexpr double kMostSquare = kSmallPiece * kSmallPiece;
+  const auto& p = patch.points;
+  const bool isSmall = ((p[2][1] - p[0][1]) / 2.0).squaredNorm() <= kMostSquare &&
+                       ((p[1][2] - p[1][0]) / 2.0).squaredNorm() <= kMostSquare;
+  return isSmall ? tolerance.small : tolerance.large;
+}
+
 /// Emits the piece of a regular vertex. If faces around the vertex are missing: the curves between
 /// those that exist, to which its descendants converge, as pieces of hardly any width; so they have
 /// normals.
@@ -151,7 +160,8 @@ void LimitWalk::emit(std::span<const Index> faces, LimitSink& sink) {
 void LimitWalk::emitVertex(const SubmeshCorner& at, LimitSink& sink) {
   const LevelOneVertex vertex = vertices_.at(at);
   const double weightAlong = alongWeightOf(base());
-  Pieces pieces(boundarySidesAt(at), tolerance_, weightAlong, sink);
+  const double tolerance = toleranceOf(vertex.around, tolerance_);
+  Pieces pieces(boundarySidesAt(at), tolerance, weightAlong, sink);
   const CornerSquare square{at.number};
   if (vertex.regular) return pieces.regular(vertex.around, 1, square);
 
@@ -164,7 +174,7 @@ void LimitWalk::emitVertex(const SubmeshCorner& at, LimitSink& sink) {
   if (!quadVFace)
     p[0][0] = fourthCorner(vertex.vFace->shape(1).centroid, p[1][1], p[0][1], p[1][0]);
   const auto near = [&](bool inF, FaceLevels& face, std::size_t place) {
-    return errorAsQuad(patch, inF, face.corners(2)[place], face.size(), weightAlong) <= tolerance_;
+    return errorAsQuad(patch, inF, face.corners(2)[place], face.size(), weightAlong) <= tolerance;
   };
   if (!vertex.triangle && (quadF || near(true, *vertex.face, vertex.place)) &&
       (quadVFace || near(false, *vertex.vFace, vertex.placeInVFace)))

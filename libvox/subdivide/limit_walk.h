@@ -27,8 +27,7 @@ class LimitWalk {
  public:
   /// @param base       level 0, in index space: an oriented manifold with one fan of faces at each
   ///   vertex
-  /// @param tolerance  voxels
-  explicit LimitWalk(const SubdivisionLevel& base, double tolerance)
+  explicit LimitWalk(const SubdivisionLevel& base, const PieceTolerance& tolerance)
       : vertices_(base), tolerance_(tolerance) {}
 
   const SubdivisionLevel& base() const { return vertices_.images().base(); }
@@ -43,7 +42,7 @@ class LimitWalk {
   std::uint8_t boundarySidesAt(const SubmeshCorner& at) const;
 
   LocalVertices vertices_;
-  double tolerance_;
+  PieceTolerance tolerance_;
 };
 
 }  // namespace vox
