@@ -225,14 +225,14 @@ expect 0 '' check parts.vdb
 expect 0 '' info parts.obj
 grep -q 'objects  *2: the "left" one (' stdout || fail "info: no names of objects"
 expect 0 '' info parts.vdb
-grep -q 'vox_parts  *{"1": "the \\"left\\" one", "2": "right-hand"}' stdout || fail "info: no names of parts"
+grep -q 'vox_part_names  *{"1": "the \\"left\\" one", "2": "right-hand"}' stdout || fail "info: no names of parts"
 expect 0 '' info --json parts.vdb
 python3 - stdout <<'PY' || fail "grid part"
 import json, sys
 density, part = json.load(open(sys.argv[1]))[0]["grids"]
 assert part["type"] == "Tree_int32_5_4_3" and part["name"] == "part", part
 assert part["active_voxels"] == density["active_voxels"] > 1000
-assert json.loads(part["metadata"]["vox_parts"]) == {"1": 'the "left" one', "2": "right-hand"}
+assert json.loads(part["metadata"]["vox_part_names"]) == {"1": 'the "left" one', "2": "right-hand"}
 PY
 expect 0 '' diff parts.vdb parts.vdb
 expect 0 '' render parts.vdb -o parts.png --size 60x50

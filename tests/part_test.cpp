@@ -130,7 +130,7 @@ TEST_CASE("where objects meet, each voxel has the part of the nearer one", "[par
   CHECK(part.background() == 0);
   CHECK(part.transform() == mask.transform());
   CHECK(differentVoxels(part, mask) == 0);
-  CHECK(part.getMetadata<openvdb::StringMetadata>("vox_parts")->value() ==
+  CHECK(part.getMetadata<openvdb::StringMetadata>("vox_part_names")->value() ==
         R"({"1": "first", "2": "second"})");
   std::array<std::uint64_t, 2> voxels{};
   std::uint64_t wrong = 0;
@@ -223,7 +223,7 @@ TEST_CASE("the inside of a ball of two materials has the nearer one", "[part]") 
     const auto& density = dynamic_cast<const openvdb::FloatGrid&>(*conversion.grids[0]);
     CHECK(differentVoxels(part, density) == 0);
     const auto names =
-        nlohmann::json::parse(part.getMetadata<openvdb::StringMetadata>("vox_parts")->value());
+        nlohmann::json::parse(part.getMetadata<openvdb::StringMetadata>("vox_part_names")->value());
     // Faces near z = 0 belong to one side by their centroid: they are up to 0.1 wide. The source of
     // an inner voxel is a voxel of the surface, half a diagonal from where it is nearest.
     constexpr double kTolerance = 0.15;

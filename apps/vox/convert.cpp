@@ -4,6 +4,7 @@
 
 #include "apps/vox/command.h"
 #include "apps/vox/convert_report.h"
+#include "apps/vox/counted.h"
 #include "apps/vox/interrupt.h"
 #include "apps/vox/options.h"
 #include "apps/vox/progress_bar.h"
@@ -20,6 +21,7 @@
 #include "libvox/pipeline/refine.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -37,6 +39,7 @@ struct ConvertArguments {
   std::string output;
   ConversionArguments conversion;
   std::string grids;
+  std::string part;
   PartArguments parts;
   VolumeArguments volume;
   std::string report;
@@ -98,6 +101,24 @@ void printEstimate(const ConvertArguments& options, const Scene& scene, const Re
               << " in memory, " << bytes(grid.fileBytes) << " in the file\n";
   std::cout << "in all: about " << bytes(made.bytes) << " of memory for grids, "
             << bytes(made.fileBytes) << " in the file\n";
+  for (std::size_t i = 0; i < made.shares.size(); ++i)
+    std::cout << "part " << i + 1 << " of " << made.shares.size() << ": "
+              << std::round(1000 * made.shares[i].cost) / 10 << " % of the surface, in "
+              << counted(made.shares[i].bricks, "brick") << '\n';
+}
+
+/// "3/16".
+RunPart parseRunPart(const std::string& text) {
+  RunPart part;
+  const char* const end = text.data() + text.size();
+  const auto [slash, error] = std::from_chars(text.data(), end, part.number);
+  bool isRead = error == std::errc() && slash != end && *slash == '/';
+  if (isRead) {
+    const auto [rest, errorOfCount] = std::from_chars(slash + 1, end, part.count);
+    isRead = errorOfCount == std::errc() && rest == end;
+  }
+  if (!isRead) throw UsageError("--part must be I/N, such as 3/16, not '" + text + "'");
+  return part;
 }
 
 /// Checks the outputs before the work starts.
@@ -119,6 +140,7 @@ ConvertOptions parse(const ConvertArguments& options) {
     throw UsageError(options.report + ": the file of --report must end in .json");
   ConvertOptions parsed = parseConversion(options.conversion, options.common.run);
   parseParts(options.parts, parsed);
+  if (!options.part.empty()) parsed.part = parseRunPart(options.part);
   parsed.volume = parseVolume(options.volume);
   if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
   return parsed;
@@ -230,6 +252,12 @@ Action addConvert(CLI::App& app) {
                "textures, "
                "or the images and colours of the meshes)")
       .type("KIND[:KEY=VALUE,...]")
+      .group("Output");
+  command
+      .add("--part", options->part,
+           "Make only the I-th of N parts of the grids, for other processes or machines to make "
+           "the others: all with the same input and options. vox merge puts the files together")
+      .type("I/N")
       .group("Output");
   addPartOptions(command, options->parts);
   addVolumeOptions(command, options->volume);

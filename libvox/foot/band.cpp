@@ -124,8 +124,11 @@ class BandMaker {
     const bool hadHoles = closeHoles(*tree, options_) > 0;
     if (!options_.unsignedDistance) {
       const openvdb::Index lowest = hadHoles ? 0 : 1;  // levels of the tree; 0: the leaves, too
-      openvdb::tools::signedFloodFillWithValues(*tree, background_, -insideBackground_, true, 1,
-                                                lowest);
+      if (options_.isPart)
+        floodBricks(*tree, lowest);
+      else
+        openvdb::tools::signedFloodFillWithValues(*tree, background_, -insideBackground_, true, 1,
+                                                  lowest);
     }
     return {tree, jumps_};
   }
@@ -138,6 +141,18 @@ class BandMaker {
     std::vector<Leaf*> leaves;
     std::vector<openvdb::Coord> jumps;
   };
+
+  /// The flood of signs within each lower node.
+  void floodBricks(Tree& tree, openvdb::Index lowest) const {
+    const openvdb::tools::SignedFloodFillOp<Tree> flood(background_, -insideBackground_, lowest);
+    std::vector<Lower*> bricks;
+    tree.getNodes(bricks);
+    parallelForEach(bricks.size(), 1, [&](std::size_t i) {
+      if (lowest == 0)
+        for (auto leaf = bricks[i]->beginChildOn(); leaf; ++leaf) flood(*leaf);
+      flood(*bricks[i]);
+    });
+  }
 
   void finishBin(std::size_t bin, Work& work) {
     work.leaves.clear();

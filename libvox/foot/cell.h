@@ -2,6 +2,7 @@
 
 #include "libvox/foot/biquadratic.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/grid/region.h"
 
 #include <array>
 #include <cstdint>
@@ -88,7 +89,8 @@ struct CellStore {
   std::vector<TriangleCell> triangles;
   std::vector<BinnedCell> binned;
   const std::vector<openvdb::Coord>* onlyBins =
-      nullptr;  ///< if not null: the bins of interest, sorted
+      nullptr;           ///< if not null: the bins of interest, sorted
+  Region region = {};    ///< of interest are the bins that it meets
 
   std::uint64_t bytes() const {
     return newton.capacity() * sizeof(NewtonCell) + polynomial.capacity() * sizeof(PolynomialCell) +

@@ -24,6 +24,7 @@ auto orderOf(const BinnedCell& cell) {
 void CellStore::bin(const Prism& prism, std::uint32_t owner, std::size_t cell, CellKind kind) {
   const openvdb::CoordBBox bins(prism.box.min() >> kBinLog2, prism.box.max() >> kBinLog2);
   const auto enter = [&](const openvdb::Coord& at) {
+    if (!region.meetsBricks(openvdb::CoordBBox::createCube(at << kBinLog2, kBinSide))) return;
     binned.push_back({at, owner, static_cast<std::uint32_t>(cell), number, kind});
   };
   if (onlyBins == nullptr) {

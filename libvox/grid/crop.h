@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/core/parallel.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/region.h"
 
@@ -8,17 +9,13 @@
 
 namespace vox {
 
-/// Switches off all voxels of a tree outside a region, and gives them the background. Cost
-/// O(nodes). Unlike OpenVDB's Tree::clip, it makes no leaves of background along the sides of the
-/// box.
+/// Switches off all voxels of a tree outside a box, and gives them the background. Cost O(nodes).
+/// Unlike OpenVDB's Tree::clip, it makes no leaves of background along the sides of the box.
 template <class TreeT>
-void crop(TreeT& tree, const Region& region) {
+void cropToBox(TreeT& tree, const openvdb::CoordBBox& box) {
   using Leaf = typename TreeT::LeafNodeType;
   using Lower = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
   using Value = typename TreeT::ValueType;
-  if (region.isAll()) return;
-  if (region.isEmpty()) return tree.clear();
-  const openvdb::CoordBBox& box = region.box();
   const Value background = tree.background();
 
   const auto removeAll = [&](const std::vector<openvdb::Coord>& origins, openvdb::Index level) {
@@ -62,6 +59,54 @@ void crop(TreeT& tree, const Region& region) {
       leaf->clip(box, background);
   }
   removeAll(outside, Leaf::LEVEL + 1);
+}
+
+/// Gives all leaves and bricks outside the bricks of a region the background.
+template <class TreeT>
+void cropToBricks(TreeT& tree, const Region& region) {
+  using Leaf = typename TreeT::LeafNodeType;
+  using Upper = typename TreeT::RootNodeType::ChildNodeType;
+  using Lower = typename Upper::ChildNodeType;
+  const typename TreeT::ValueType background = tree.background();
+
+  // Tiles of the root become tiles of bricks.
+  std::vector<openvdb::Coord> large;
+  for (auto tile = std::as_const(tree).root().cbeginValueAll(); tile; ++tile)
+    large.push_back(tile.getCoord());
+  for (const openvdb::Coord& origin : large)
+    tree.root().addChild(new Upper(origin, tree.getValue(origin), tree.isValueOn(origin)));
+
+  std::vector<Upper*> uppers;
+  tree.getNodes(uppers);
+  parallelForEach(uppers.size(), 1, [&](std::size_t u) {
+    Upper& upper = *uppers[u];
+    for (openvdb::Index i = 0; i < Upper::NUM_VALUES; ++i) {
+      const bool isTile = !upper.isChildMaskOn(i);
+      if (isTile && !upper.isValueMaskOn(i) && upper.getTable()[i].getValue() == background)
+        continue;
+      const openvdb::CoordBBox brick =
+          openvdb::CoordBBox::createCube(upper.offsetToGlobalCoord(i), Lower::DIM);
+      if (!region.meetsBricks(brick)) {
+        upper.addTile(Lower::LEVEL + 1, brick.min(), background, false);
+        continue;
+      }
+      if (isTile) continue;
+      Lower& lower = *upper.getTable()[i].getChild();
+      for (openvdb::Index j = 0; j < Lower::NUM_VALUES; ++j)
+        if (lower.isChildMaskOn(j) &&
+            !region.meetsBricks(lower.getTable()[j].getChild()->getNodeBoundingBox()))
+          lower.addTile(Leaf::LEVEL + 1, lower.offsetToGlobalCoord(j), background, false);
+    }
+  });
+}
+
+/// Switches off all voxels of a tree outside a region, and gives them the background. At the margin
+/// of bricks whole leaves stay.
+template <class TreeT>
+void crop(TreeT& tree, const Region& region) {
+  if (region.isEmpty()) return tree.clear();
+  if (region.hasBricks()) cropToBricks(tree, region);
+  if (region.box()) cropToBox(tree, *region.box());
 }
 
 }  // namespace vox

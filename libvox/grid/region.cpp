@@ -33,18 +33,21 @@ std::uint64_t rowsOf(const Coord& low, const Coord& high) {
 }  // namespace
 
 bool Region::meets(const Box& part) const {
-  if (!box_) return true;
-  if (box_->empty()) return false;
+  if (isAll()) return true;
+  if (isEmpty()) return false;
   constexpr double kHalf = 0.5;
-  for (int axis = 0; axis < 3; ++axis)
-    if (part.high[axis] < box_->min()[axis] - kHalf || part.low[axis] > box_->max()[axis] + kHalf)
-      return false;
-  return true;
+  CoordBBox voxels;  // those whose cubes meet the box
+  for (int axis = 0; axis < 3; ++axis) {
+    voxels.min()[axis] = clamped(std::ceil(part.low[axis] - kHalf));
+    voxels.max()[axis] = clamped(std::floor(part.high[axis] + kHalf));
+  }
+  return (!box_ || box_->hasOverlap(voxels)) && meetsBricks(voxels);
 }
 
 LeafWords Region::within(const LeafWords& voxels, const Coord& origin) const {
   constexpr std::int32_t kLast = 7;
   CoordBBox leaf(origin, origin.offsetBy(kLast));
+  if (!meetsBricks(leaf)) return {};
   if (!box_ || box_->isInside(leaf)) return voxels;
   LeafWords kept{};
   if (box_->empty() || !box_->hasOverlap(leaf)) return kept;
@@ -60,15 +63,22 @@ LeafWords Region::within(const LeafWords& voxels, const Coord& origin) const {
 }
 
 Region Region::operator&(const Region& other) const {
-  if (!box_) return other;
-  if (!other.box_) return *this;
-  return Region(CoordBBox(Coord::maxComponent(box_->min(), other.box_->min()),
-                          Coord::minComponent(box_->max(), other.box_->max())));
+  Region both = bricks_ ? *this : other;
+  if (box_ && other.box_)
+    both.box_ = CoordBBox(Coord::maxComponent(box_->min(), other.box_->min()),
+                          Coord::minComponent(box_->max(), other.box_->max()));
+  else
+    both.box_ = box_ ? box_ : other.box_;
+  return both;
 }
 
 Region Region::grown(int voxels) const {
-  if (isAll() || isEmpty()) return *this;
-  return Region(CoordBBox(box_->min().offsetBy(-voxels), box_->max().offsetBy(voxels)));
+  Region more = *this;
+  if (isEmpty()) return more;
+  if (box_)
+    more.box_ = CoordBBox(box_->min().offsetBy(-voxels), box_->max().offsetBy(voxels));
+  if (bricks_) more.margin_ += voxels;
+  return more;
 }
 
 Region regionOf(const Box& box, const GridTransform& transform) {

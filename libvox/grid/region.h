@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/grid/bricks.h"
 #include "libvox/grid/leaf_words.h"
 #include "libvox/grid/openvdb_fwd.h"
 #include "libvox/grid/transform.h"
@@ -10,31 +11,45 @@
 
 namespace vox {
 
-/// The voxels that a conversion makes: all, or those in a box.
+/// The voxels that a conversion makes: all, or those in a box, in a range of bricks, or in both.
 class Region {
  public:
   Region() = default;  ///< all voxels
   /// @param box  both corners belong to it; may be empty
   explicit Region(const openvdb::CoordBBox& box) : box_(box) {}
+  explicit Region(const BrickRange& bricks) : bricks_(bricks) {}
 
-  bool isAll() const { return !box_; }
+  bool isAll() const { return !box_ && !bricks_; }
   bool isEmpty() const { return box_ && box_->empty(); }
-  /// Precondition: not all.
-  const openvdb::CoordBBox& box() const { return *box_; }
+  /// Outside this box there is no voxel of the region; nothing: there is no such box.
+  const std::optional<openvdb::CoordBBox>& box() const { return box_; }
+  /// Whether bricks limit the region, too.
+  bool hasBricks() const { return bricks_.has_value(); }
 
-  bool contains(const openvdb::Coord& voxel) const { return !box_ || box_->isInside(voxel); }
+  bool contains(const openvdb::Coord& voxel) const {
+    return (!box_ || box_->isInside(voxel)) && meetsBricks(openvdb::CoordBBox(voxel, voxel));
+  }
   /// Whether the cube of some voxel meets a box. @param part  index space
   bool meets(const Box& part) const;
-  /// The voxels of a set that belong to the region. @param origin  of the leaf
+  /// Whether the bricks of the region, with its margin, hold a voxel of a box.
+  bool meetsBricks(openvdb::CoordBBox box) const {
+    if (!bricks_) return true;
+    box.expand(margin_);
+    return bricks_->meets(box);
+  }
+  /// The voxels of a set that belong to the region. At the margin of bricks whole leaves do.
+  /// @param origin  of the leaf
   LeafWords within(const LeafWords& voxels, const openvdb::Coord& origin) const;
 
-  /// The voxels that are in both.
+  /// The voxels that are in both. Precondition: at most one of them has bricks.
   Region operator&(const Region& other) const;
   /// More voxels on all sides.
   Region grown(int voxels) const;
 
  private:
   std::optional<openvdb::CoordBBox> box_;
+  std::optional<BrickRange> bricks_;
+  int margin_ = 0;  // of the bricks, voxels
 };
 
 /// The voxels whose centres lie in a box, or so little outside that rounding may be the reason.

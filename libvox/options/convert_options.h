@@ -4,6 +4,7 @@
 #include "libvox/options/part_options.h"
 #include "libvox/options/preparation_options.h"
 #include "libvox/options/run_options.h"
+#include "libvox/options/run_part.h"
 #include "libvox/options/stop_rule.h"
 #include "libvox/options/surface_options.h"
 #include "libvox/options/texture_spec.h"
@@ -33,6 +34,7 @@ struct ConvertOptions : PreparationOptions {
   std::optional<std::array<double, 6>> bounds;
   /// The same by voxels: the lowest voxel, then the highest. Both apply.
   std::optional<std::array<int, 6>> clip;
+  std::optional<RunPart> part;                 ///< default: all bricks
   std::optional<std::vector<GridKind>> grids;  ///< default: density
   std::optional<PartBy> partBy;      ///< default: the first by which the input has several parts
   std::optional<Split> split;        ///< default: one grid of all densities

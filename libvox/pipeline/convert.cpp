@@ -265,6 +265,15 @@ struct MadeGrids {
   openvdb::Int32Grid::Ptr parts;
 };
 
+/// The region of a level set of a part. Small ones are made whole, and cropped: then surfaces may
+/// meet themselves.
+Region bandOfPart(const PreparedScene& prepared) {
+  constexpr std::size_t kMostOfSmall = 200;
+  std::size_t bricks = 0;
+  for (const BrickShare& share : prepared.estimate.shares) bricks += share.bricks;
+  return bricks > kMostOfSmall ? prepared.region : Region{};
+}
+
 /// Makes grids one after the other; later ones use earlier ones.
 class GridMaker {
  public:
@@ -278,6 +287,7 @@ class GridMaker {
         area_(std::accumulate(prepared.areas.begin(), prepared.areas.end(), 0.0)) {
     // Parts go from the surface to the inside, so they are cropped at last.
     sources_.region = request.spreadsParts() ? Region{} : prepared.region;
+    sources_.bandOfPart = bandOfPart(prepared);
     sources_.surfaces = prepared.surfaces;
     sources_.markVoxels = [this]() -> const openvdb::MaskTree& { return voxelsOfAll(); };
     sources_.partCount = prepared.partNames.size();
@@ -367,6 +377,10 @@ std::vector<openvdb::GridBase::Ptr> finishedGrids(const MadeGrids& made, const S
     cropGrid(*made.asked[i], prepared.region);
     const openvdb::GridBase::Ptr grid =
         finished(made.asked[i], request.grids[i], request.volume, metadata, report.warnings);
+    if (request.part) {
+      grid->insertMeta(kRunPartMetadata, openvdb::Int32Metadata(request.part->number));
+      grid->insertMeta(kRunPartsMetadata, openvdb::Int32Metadata(request.part->count));
+    }
     if (grid == made.parts)
       grid->insertMeta(kPartsMetadata, openvdb::StringMetadata(partsJson(prepared.partNames)));
     if (grid != made.density || !request.splits || made.density->activeVoxelCount() == 0) {
@@ -395,7 +409,8 @@ Conversion convertScene(const Scene& scene, const Request& request, Progress& pr
   const StageTimer timer(report.gridsSeconds);
   result.grids = finishedGrids(maker.make(), scene, request, prepared, report);
   result.compression = request.volume.compression;
-  if (request.crops() || request.volume.alpha == Alpha::kCut) warnOfEmpty(result, request, report);
+  if (!request.part && (request.crops() || request.volume.alpha == Alpha::kCut))
+    warnOfEmpty(result, request, report);
   if (!needsVoxels(request.grids)) report.activeVoxels = result.grids[0]->activeVoxelCount();
   return result;
 }

@@ -2,13 +2,17 @@
 
 #include "libvox/pipeline/distance.h"
 
+#include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/foot/band.h"
 #include "libvox/foot/exposed_band.h"
 #include "libvox/foot/wide_band.h"
+#include "libvox/grid/bricks.h"
+#include "libvox/grid/crop.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/transform.h"
+#include "libvox/pipeline/brick_signs.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/exposed_pieces.h"
 #include "libvox/pipeline/foot_cells.h"
@@ -16,6 +20,7 @@
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/sheets.h"
 #include "libvox/volume/fill.h"
+#include "libvox/volume/winding.h"
 
 #include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/Composite.h>
@@ -75,12 +80,13 @@ void forEachSurface(const std::vector<Part>& parts, Visit&& visit) {
 class LevelSetMaker {
  public:
   LevelSetMaker(std::span<const PreparedSurface> surfaces, const VolumeSettings& settings,
-                double voxelSize, const MarkVoxels& markVoxels, MemoryBudget& budget,
-                Progress& progress, std::vector<std::string>& warnings)
+                double voxelSize, const MarkVoxels& markVoxels, const Region& region,
+                MemoryBudget& budget, Progress& progress, std::vector<std::string>& warnings)
       : surfaces_(surfaces),
         settings_(settings),
         voxelSize_(voxelSize),
         markVoxels_(markVoxels),
+        region_(region),
         budget_(budget),
         progress_(progress),
         warnings_(warnings) {
@@ -98,6 +104,8 @@ class LevelSetMaker {
 
   openvdb::FloatTree::Ptr make() {
     if (!open_.empty()) findEnclosing();
+    isLocal_ = region_.hasBricks() && (closed_.empty() || (open_.empty() && !solidsMayMeet())) &&
+               !isWide({settings_.band.in, settings_.band.out});
     openvdb::FloatTree::Ptr tree;
     if (!closed_.empty()) tree = bandOfSolids();
     if (tree && endsAtOthers_) addLids(*tree);
@@ -215,10 +223,15 @@ class LevelSetMaker {
     return away.norm();
   }
 
+  /// Whether more than the side of the nearest surface tells what is inside.
+  bool solidsMayMeet() const {
+    return inside_.solid != nullptr || mayMeet(closed_) ||
+           std::any_of(closed_.begin(), closed_.end(), facesInward);
+  }
+
   openvdb::FloatTree::Ptr bandOfSolids() {
-    const BandOptions options{settings_.band.in, settings_.band.out, voxelSize_};
-    const bool overlap = inside_.solid != nullptr || mayMeet(closed_) ||
-                         std::any_of(closed_.begin(), closed_.end(), facesInward);
+    const BandOptions options{settings_.band.in, settings_.band.out, voxelSize_, false, 0, isLocal_};
+    const bool overlap = solidsMayMeet();
     const double share = open_.empty() ? 1 : 0.9;  // of the stage
     if (!overlap)
       if (const openvdb::FloatTree::Ptr band = bandByFeet(options, share)) return band;
@@ -229,10 +242,10 @@ class LevelSetMaker {
     constexpr double kHalfThickness = 0.5;
     const double half = settings_.openMesh == OpenMesh::kUnsigned ? 0 : kHalfThickness;
     const double out = settings_.band.out;  // no voxel is deeper than half the thickness
-    const BandOptions options{out, out, voxelSize_, true, half};
+    const BandOptions options{out, out, voxelSize_, true, half, isLocal_};
     const BandOptions narrow = narrowed(options);
     const double share = closed_.empty() ? 1 : 0.1;
-    FootCells cells(cellOptions(narrow, isWide(options)), budget_);
+    FootCells cells(cellOptions(narrow, isWide(options)), regionOfBand(), budget_);
     addCells(open_, nullptr, kPartOfCells * share, cells);
     const FootBins bins = cells.bins();
     const Band band = makeBand(bins, narrow, progress_, (1 - kPartOfCells) * share);
@@ -243,10 +256,18 @@ class LevelSetMaker {
   /// The band of solids that do not meet. Null if its jumps show that a solid meets itself.
   openvdb::FloatTree::Ptr bandByFeet(const BandOptions& options, double share) {
     const BandOptions narrow = narrowed(options);
-    FootCells cells(cellOptions(narrow, isWide(options)), budget_);
+    FootCells cells(cellOptions(narrow, isWide(options)), regionOfBand(), budget_);
     addCells(closed_, nullptr, kPartOfCells * share, cells);
     const FootBins bins = cells.bins();
     const Band band = makeBand(bins, narrow, progress_, (1 - kPartOfCells) * share);
+    if (isLocal_) {
+      if (!band.jumps.empty()) refuseMeeting(band.jumps);
+      crop(*band.tree, region_);
+      setInnerBricks(*band.tree, region_, boxOfSolids(),
+                     -backgroundOf(narrow.in, voxelSize_),
+                     [&](std::span<const openvdb::Coord> voxels) { return areInside(voxels); });
+      return band.tree;
+    }
     if (!band.jumps.empty()) {
       if (narrow.in != narrow.out || narrow.in < kLeastToExpose || isWide(options)) return nullptr;
       exposeParts(band, bins, narrow);
@@ -254,6 +275,44 @@ class LevelSetMaker {
     }
     if (isWide(options)) widen(*band.tree, kMostExact, bins, options, progress_);
     return band.tree;
+  }
+
+  /// Holes of a band are closed from voxels around them.
+  Region regionOfBand() const {
+    constexpr int kMargin = 16;  // voxels
+    return isLocal_ ? region_.grown(kMargin) : Region{};
+  }
+
+  /// @param jumps  leaves; not empty
+  [[noreturn]] static void refuseMeeting(const std::vector<openvdb::Coord>& jumps) {
+    const openvdb::Coord at = *std::min_element(jumps.begin(), jumps.end());
+    throw MeshError("the surface meets itself near the voxel (" + std::to_string(at.x()) + ", " +
+                    std::to_string(at.y()) + ", " + std::to_string(at.z()) +
+                    "), and what is inside there depends on all of it: leave out --part, or the "
+                    "grid surface");
+  }
+
+  openvdb::CoordBBox boxOfSolids() const {
+    openvdb::CoordBBox box;
+    for (const Part& part : closed_) {
+      box.expand(openvdb::Coord::floor(openvdb::Vec3d(part.box.low.data())));
+      box.expand(openvdb::Coord::ceil(openvdb::Vec3d(part.box.high.data())));
+    }
+    return box;
+  }
+
+  /// Whether voxels are inside some solid. They are many voxels away from the surface.
+  std::vector<char> areInside(std::span<const openvdb::Coord> voxels) const {
+    constexpr double kTolerance = kBrickSide / 8.0;
+    std::vector<char> inside(voxels.size(), 0);
+    forEachSurface(closed_, [&](std::span<const Part> parts) {
+      const PolygonMesh polygons = trianglesNear(surfaces_[parts[0].surface], facesOf(parts),
+                                                 kTolerance, budget_, progress_);
+      const std::vector<int> windings = windingNumbers(polygons, voxels);
+      for (std::size_t i = 0; i < voxels.size(); ++i)
+        if (windings[i] != 0) inside[i] = 1;
+    });
+    return inside;
   }
 
   /// The band of solids parts of which may lie inside others.
@@ -350,11 +409,13 @@ class LevelSetMaker {
   const VolumeSettings& settings_;
   double voxelSize_;
   const MarkVoxels& markVoxels_;
+  const Region& region_;
   MemoryBudget& budget_;
   Progress& progress_;
   std::vector<std::vector<MeshComponent>> components_;
   std::vector<Part> closed_, open_;
   bool endsAtOthers_ = false;  // an open part is one of closed_
+  bool isLocal_ = false;       // only the bricks of the region are made
   std::vector<std::string>& warnings_;
   Solid solid_;
   Inside inside_;
@@ -374,15 +435,16 @@ bool isThin(const openvdb::FloatTree& tree, double voxelSize) {
 openvdb::FloatGrid::Ptr surfaceGrid(std::span<const PreparedSurface> surfaces,
                                     const VolumeSettings& settings,
                                     const openvdb::math::Transform& transform,
-                                    const MarkVoxels& markVoxels, MemoryBudget& budget,
-                                    Progress& progress, std::vector<std::string>& warnings) {
+                                    const MarkVoxels& markVoxels, const Region& part,
+                                    MemoryBudget& budget, Progress& progress,
+                                    std::vector<std::string>& warnings) {
   const double voxelSize = transform.voxelSize()[0];
-  LevelSetMaker maker(surfaces, settings, voxelSize, markVoxels, budget, progress, warnings);
+  LevelSetMaker maker(surfaces, settings, voxelSize, markVoxels, part, budget, progress, warnings);
   auto grid = openvdb::FloatGrid::create(maker.make());
   grid->setTransform(transform.copy());
   const bool isUnsigned = maker.hasSheets() && settings.openMesh == OpenMesh::kUnsigned;
   grid->setGridClass(isUnsigned ? openvdb::GRID_UNKNOWN : openvdb::GRID_LEVEL_SET);
-  if (!maker.hasSheets() && isThin(grid->tree(), voxelSize))
+  if (!maker.hasSheets() && !part.hasBricks() && isThin(grid->tree(), voxelSize))
     warnings.push_back(
         "the objects are thinner than a voxel everywhere: the level set has hardly any inside; use "
         "smaller voxels");

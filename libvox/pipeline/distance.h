@@ -29,14 +29,17 @@ using MarkVoxels = std::function<const openvdb::MaskTree&()>;
 /// Components that enclose nothing become sheets one voxel thick, or with OpenMesh::kUnsigned
 /// distances without sign.
 ///
+/// @param part      if it has bricks: only they are made, from the surface near them, if this is
+///   possible; else all are
 /// @param warnings  gets a line if the surface encloses only places thinner than a voxel
+/// @throws MeshError   there is a part, and the surface meets itself there
 /// @throws LimitError
 /// @throws Cancelled
 std::shared_ptr<openvdb::FloatGrid> surfaceGrid(std::span<const PreparedSurface> surfaces,
                                                 const VolumeSettings& settings,
                                                 const openvdb::math::Transform& transform,
-                                                const MarkVoxels& markVoxels, MemoryBudget& budget,
-                                                Progress& progress,
+                                                const MarkVoxels& markVoxels, const Region& part,
+                                                MemoryBudget& budget, Progress& progress,
                                                 std::vector<std::string>& warnings);
 
 }  // namespace vox

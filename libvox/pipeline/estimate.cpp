@@ -50,6 +50,15 @@ struct Measure {
   double uppers = 0;      ///< of 4096^3
   bool textured = false;  ///< colours differ from voxel to voxel
   bool smooth = false;    ///< normals differ from voxel to voxel
+
+  /// Of a part of them.
+  Measure times(double share) const {
+    Measure part = *this;
+    for (double* size : {&part.area, &part.taxicabArea, &part.largestArea, &part.volume,
+                         &part.sheetArea, &part.activeVoxels, &part.leaves, &part.lowers})
+      *size *= share;
+    return part;
+  }
 };
 
 /// The cubes of 2^log2 voxels a side that polygons meet. Gives up, without a count, where the
@@ -171,7 +180,7 @@ double activeVoxelsOf(const ConversionWay& way, const Measure& m) {
 /// The box of the cubes of a region.
 Box boxOf(const Region& region) {
   constexpr double kHalf = 0.5;
-  const openvdb::CoordBBox& voxels = region.box();
+  const openvdb::CoordBBox& voxels = *region.box();
   Box box{Vec3d(voxels.min().x(), voxels.min().y(), voxels.min().z()),
           Vec3d(voxels.max().x(), voxels.max().y(), voxels.max().z())};
   box.low.array() -= kHalf;
@@ -185,8 +194,8 @@ Measure measureOf(const PreparedSurface& surface, const Region& region, Cubes& l
   const std::optional<PolygonMesh> few = fewPolygons(surface.base, levelOf(surface.way));
   const PolygonMesh& whole = few ? *few : surface.base.mesh;
   PolygonMesh cropped;
-  if (!region.isAll()) cropped = croppedTo(boxOf(region), whole);
-  const PolygonMesh& polygons = region.isAll() ? whole : cropped;
+  if (region.box()) cropped = croppedTo(boxOf(region), whole);
+  const PolygonMesh& polygons = region.box() ? cropped : whole;
   const Areas areas = areasOf(polygons);
   measure.area = areas.area;
   measure.taxicabArea = areas.taxicab;
@@ -197,8 +206,8 @@ Measure measureOf(const PreparedSurface& surface, const Region& region, Cubes& l
   if (open) measure.sheetArea = measure.area;
   if (!open)
     measure.volume =
-        std::max(0.0, region.isAll() ? signedVolume(whole, numbered(whole.faceCount())).volume
-                                     : volumeWithin(boxOf(region), whole));
+        std::max(0.0, region.box() ? volumeWithin(boxOf(region), whole)
+                                   : signedVolume(whole, numbered(whole.faceCount())).volume);
   measure.activeVoxels = activeVoxelsOf(surface.way, measure);
   return measure;
 }
@@ -388,10 +397,11 @@ GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& v
 }  // namespace
 
 Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
-                       const VolumeSettings& volume, const Region& region) {
-  const Measure measure = measureOf(surfaces, region);
+                       const VolumeSettings& volume, const Region& region, double share) {
+  const Measure measure = measureOf(surfaces, region).times(share);
   // The inside is found in the whole, and cropped then.
-  const bool needsWhole = !region.isAll() && needsInside(kinds, volume);
+  const bool inside = needsInside(kinds, volume);
+  const bool needsWhole = !region.isAll() && inside;
   const Measure marked = needsWhole ? measureOf(surfaces, {}) : measure;
   Estimate all;
   const bool voxels = needsVoxels(kinds);
@@ -415,6 +425,7 @@ Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<cons
     all.grids.push_back(grid);
   }
   all.fixedBytes = uppers * fixedUppers(measure);
+  if (inside && voxels) all.wholeBytes = 3 * estimateMask(marked).bytes;
   all.certain = std::none_of(surfaces.begin(), surfaces.end(), shrinks);
   return all;
 }
@@ -438,6 +449,21 @@ int levelsOf(const PreparedSurface& surface, Progress& progress) {
                   more + static_cast<int>(std::ceil(std::log2(largest / kVertexConversionSpan))));
 }
 
+namespace {
+
+/// How many parts fit each, even if the estimate is too low; nothing: none would.
+std::optional<std::int64_t> partsThatFit(const Estimate& estimate, double left) {
+  constexpr double kLargest = 1.25;  // part, of the mean
+  const double inEach = std::max(estimate.fixedBytes, estimate.wholeBytes);
+  const double most = left / kEstimateFactor - inEach;
+  if (most <= 0 || !estimate.shares.empty()) return std::nullopt;
+  const double count = std::ceil(kLargest * (estimate.bytes - inEach) / most);
+  if (!(count <= kMostRunParts)) return std::nullopt;
+  return std::max<std::int64_t>(2, static_cast<std::int64_t>(count));
+}
+
+}  // namespace
+
 std::string refusalOf(const Estimate& estimate, double longestSide, const MemoryBudget& budget) {
   const double left = static_cast<double>(budget.left());
   if (!estimate.certain || estimate.bytes <= kEstimateFactor * left) return {};
@@ -455,6 +481,8 @@ std::string refusalOf(const Estimate& estimate, double longestSide, const Memory
   text.precision(3);
   text << "use --dim " << static_cast<std::int64_t>(longestSide / voxelSize) << " or --voxel-size "
        << voxelSize << ", or raise --max-memory";
+  if (const auto parts = partsThatFit(estimate, left))
+    text << ", or convert in " << *parts << " parts (--part 1/" << *parts << " and so on)";
   return text.str();
 }
 

@@ -61,6 +61,7 @@ CellStore& FootCells::newStore() {
   CellStore& store = stores_.emplace_back();
   store.number = static_cast<std::uint16_t>(stores_.size() - 1);
   if (!onlyBins_.empty()) store.onlyBins = &onlyBins_;
+  store.region = region_;
   return store;
 }
 
@@ -88,8 +89,8 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
                                       *storeOfThread_.local(), filter, whole ? &*whole : nullptr);
   };
   Submeshes submeshes = cutIntoSubmeshes(surface.base, surface.options);
-  // A band needs all cells: the sides of voxels follow from those of others.
-  if (options_.places) skipFarFrom(surface.region, double{options_.reach} + 1, submeshes);
+  // A band needs all cells, unless it is told otherwise: sides of voxels follow from those of others.
+  skipFarFrom(options_.places ? surface.region : region_, double{options_.reach} + 1, submeshes);
   runSubmeshes(submeshes, progress, part, walkOfThread,
                [&](const std::unique_ptr<CellWalk>& walk, const SubmeshTask& task) {
                  const std::uint64_t before = walk->store.bytes();

@@ -34,6 +34,9 @@ class FootCells {
   FootCells(const CellOptions& options, std::vector<openvdb::Coord> onlyBins,
             const MemoryBudget& budget)
       : options_(options), budget_(budget), onlyBins_(std::move(onlyBins)) {}
+  /// @param region  bins that its bricks do not meet are of no interest
+  FootCells(const CellOptions& options, const Region& region, const MemoryBudget& budget)
+      : options_(options), budget_(budget), region_(region) {}
   FootCells(const FootCells&) = delete;
   FootCells& operator=(const FootCells&) = delete;
 
@@ -63,6 +66,7 @@ class FootCells {
   const MemoryBudget& budget_;
   std::atomic<std::uint64_t> bytes_{0};
   std::vector<openvdb::Coord> onlyBins_;
+  Region region_ = {};
   std::uint32_t firstOwner_ = 0;
   std::deque<CellStore> stores_;
   std::mutex mutex_;  // guards stores_ while cells are made

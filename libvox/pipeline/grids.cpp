@@ -92,15 +92,15 @@ openvdb::GridBase::Ptr makeGrid(GridKind kind, const GridSources& sources,
                                 const VolumeSettings& volume, MemoryBudget& budget,
                                 Progress& progress, std::vector<std::string>& warnings) {
   progress.check();
-  const auto& [mask, surfaces, markVoxels, soft, solid, partCount, region] = sources;
+  const auto& [mask, surfaces, markVoxels, soft, solid, partCount, region, bandOfPart] = sources;
   switch (kind) {
     case GridKind::kMask:
       break;
     case GridKind::kDensity:
       return makeDensity(*mask, surfaces, volume, region, budget, progress, warnings);
     case GridKind::kSurface:
-      return surfaceGrid(surfaces, volume, mask->transform(), markVoxels, budget, progress,
-                         warnings);
+      return surfaceGrid(surfaces, volume, mask->transform(), markVoxels, bandOfPart, budget,
+                         progress, warnings);
     case GridKind::kNormal:
       return makeNormalGrid(soft ? *soft : *mask, surfaces, soft ? kReachOfSoft : kReachOfCrossed,
                             budget, progress);

@@ -77,21 +77,6 @@ SubdivisionLevel levelOfFaces(const PreparedSurface& surface, const std::vector<
                    extends ? BoundaryRule::kExtend : BoundaryRule::kFree);
 }
 
-/// Triangles that follow some faces of a surface within a quarter of a voxel.
-PolygonMesh polygonsOf(const PreparedSurface& surface, const std::vector<Index>& faces,
-                       const MemoryBudget& budget, const Progress& progress) {
-  constexpr double kTolerance = 0.25;
-  if (faces.empty()) return {};
-  if (levelOf(surface.way)) return trianglesOfLevel(surface, faces, budget, progress);
-  Progress unwatched;
-  const TriangleSoup soup = triangleSoup(
-      levelOfFaces(surface, faces), StopRule{.flatness = kTolerance}, surface.options, unwatched);
-  PolygonMesh mesh;
-  mesh.points = soup.points;
-  for (const auto& triangle : soup.triangles) mesh.addFace(triangle);
-  return mesh;
-}
-
 void refuseOrWarn(const std::string& noInside, OpenMesh openMesh,
                   std::vector<std::string>& warnings) {
   if (openMesh == OpenMesh::kError)
@@ -139,6 +124,19 @@ bool hasCavity(const std::vector<MeshComponent>& components) {
 
 }  // namespace
 
+PolygonMesh trianglesNear(const PreparedSurface& surface, const std::vector<Index>& faces,
+                          double tolerance, const MemoryBudget& budget, const Progress& progress) {
+  if (faces.empty()) return {};
+  if (levelOf(surface.way)) return trianglesOfLevel(surface, faces, budget, progress);
+  Progress unwatched;
+  const TriangleSoup soup = triangleSoup(
+      levelOfFaces(surface, faces), StopRule{.flatness = tolerance}, surface.options, unwatched);
+  PolygonMesh mesh;
+  mesh.points = soup.points;
+  for (const auto& triangle : soup.triangles) mesh.addFace(triangle);
+  return mesh;
+}
+
 PolygonMesh trianglesOfLevel(const PreparedSurface& surface, const std::vector<Index>& faces,
                              const MemoryBudget& budget, const Progress& progress) {
   progress.check();
@@ -163,6 +161,7 @@ Solid solidOf(const openvdb::MaskTree& active, std::span<const PreparedSurface> 
               std::vector<std::string>& warnings) {
   std::vector<std::vector<MeshComponent>> components;
   for (const PreparedSurface& surface : surfaces) components.push_back(componentsOf(surface.base));
+  constexpr double kTolerance = 0.25;  // voxels
   AreCavities areCavities;
   const auto areInCavities = [&](std::span<const openvdb::Coord> voxels) {
     std::vector<int> inward(voxels.size(), 0);
@@ -171,7 +170,7 @@ Solid solidOf(const openvdb::MaskTree& active, std::span<const PreparedSurface> 
       for (const auto& [side, sum] : {std::pair(MeshComponent::Side::kIn, &inward),
                                       std::pair(MeshComponent::Side::kOut, &outward)}) {
         const PolygonMesh polygons =
-            polygonsOf(surfaces[i], facesOf(components[i], side), budget, progress);
+            trianglesNear(surfaces[i], facesOf(components[i], side), kTolerance, budget, progress);
         const std::vector<int> windings = windingNumbers(polygons, voxels);
         std::transform(sum->begin(), sum->end(), windings.begin(), sum->begin(), std::plus<>());
       }

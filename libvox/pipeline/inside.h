@@ -44,6 +44,14 @@ Solid solidOf(const openvdb::MaskTree& active, std::span<const PreparedSurface> 
               const VolumeSettings& settings, const MemoryBudget& budget, Progress& progress,
               std::vector<std::string>& warnings);
 
+/// Triangles that follow some faces of a surface; the polygons themselves where it stops at a level.
+/// @param faces      ascending, whole components
+/// @param tolerance  voxels
+/// @throws LimitError
+/// @throws Cancelled
+PolygonMesh trianglesNear(const PreparedSurface& surface, const std::vector<Index>& faces,
+                          double tolerance, const MemoryBudget& budget, const Progress& progress);
+
 /// The polygons at which a surface stops (levelOf), cut into triangles.
 /// @param faces  ascending, whole components
 /// @throws LimitError

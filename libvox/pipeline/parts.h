@@ -26,7 +26,7 @@ Parts partsOf(const Scene& scene, PartBy by);
 PartBy defaultPartBy(const Scene& scene);
 
 /// Name of the metadata of the grid `part`, with the names of parts as partsJson() writes them.
-inline constexpr const char* kPartsMetadata = "vox_parts";
+inline constexpr const char* kPartsMetadata = "vox_part_names";
 
 /// {"1": "body", "2": "wheel"}. What is no UTF-8 becomes U+FFFD.
 std::string partsJson(const std::vector<std::string>& names);

@@ -121,6 +121,18 @@ Region regionOf(const Request& request, const GridTransform& transform) {
   return region;
 }
 
+const BrickShare& shareOf(const RunPart& part, const std::vector<BrickShare>& shares) {
+  return shares[static_cast<std::size_t>(part.number - 1)];
+}
+
+/// Cuts the region of a scene into the parts of a run, and takes one of them.
+std::vector<BrickShare> takePart(const RunPart& part, PreparedScene& prepared) {
+  std::vector<BrickShare> shares =
+      cutInto(part.count, costsOf(prepared.surfaces, prepared.region));
+  prepared.region = prepared.region & Region(shareOf(part, shares).range);
+  return shares;
+}
+
 }  // namespace
 
 PreparedScene prepareScene(const Scene& scene, const Request& request, Progress& progress,
@@ -144,6 +156,7 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
   report.voxelSize = transform.voxelSize;
   prepared.areas = areasOf(scene, transform, progress);
   plan(scene, request, prepared.areas, progress);
+  std::vector<BrickShare> shares;
   {
     const StageTimer timer(report.prepareSeconds);
     ImageReader images(budget);
@@ -159,6 +172,7 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
                                                 isUsedUp ? &usedUp->objects[i].mesh : nullptr));
     }
     report.inputHash = images.hashWith(scene.inputHash);
+    if (request.part) shares = takePart(*request.part, prepared);
     for (PreparedSurface& surface : prepared.surfaces)
       surface.region = request.spreadsParts() ? Region{} : prepared.region.grown(kMarginOfFeet);
     prepared.partNames = std::move(parts.names);
@@ -168,8 +182,10 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
       requireInside(
           prepared.surfaces[i], request.volume, transform,
           [&] { return gapsOf(scene.objects[i], preparations[i]); }, report.warnings);
+  const double share = request.part ? shareOf(*request.part, shares).cost : 1;
   prepared.estimate =
-      estimateGrids(prepared.surfaces, request.grids, request.volume, prepared.region);
+      estimateGrids(prepared.surfaces, request.grids, request.volume, prepared.region, share);
+  prepared.estimate.shares = std::move(shares);
   prepared.estimate.voxelSize = report.voxelSize;
   prepared.estimate.refusal = refusalOf(prepared.estimate, box.longestSide(), budget);
   return prepared;

@@ -103,6 +103,17 @@ void requireCuttable(const Request& request) {
     throw UsageError("--alpha cut needs --edge hard (soft is the default of --target blender)");
 }
 
+void requirePart(const Request& request) {
+  const std::optional<RunPart>& part = request.part;
+  if (!part) return;
+  if (part->count < 1 || part->count > kMostRunParts || part->number < 1 ||
+      part->number > part->count)
+    throw UsageError("--part must be I/N, with I from 1 to N, and N at most " +
+                     std::to_string(kMostRunParts));
+  if (request.splits)
+    throw UsageError("--split makes as many grids as parts have voxels; leave it out with --part");
+}
+
 std::optional<Box> boundsOf(const std::optional<std::array<double, 6>>& bounds) {
   if (!bounds) return std::nullopt;
   const Box box{Vec3d(bounds->data()), Vec3d(bounds->data() + 3)};
@@ -219,9 +230,11 @@ Request resolve(const Scene& scene, const ConvertOptions& options) {
   request.turn = turnFor(up, request.volume.target);
   request.bounds = boundsOf(options.bounds ? options.bounds : scene.bounds);
   request.clip = options.clip;
+  request.part = options.part;
   request.grids = gridsOf(scene, options);
   resolveParts(scene, options, request);
   requireCuttable(request);
+  requirePart(request);
   for (ObjectRequest& object : request.objects)
     object.preparation.followsTexcoords = request.hasLooks();
   request.optionText = textOf(options, request.resolution, scene.bounds, request.volume);

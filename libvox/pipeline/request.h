@@ -81,6 +81,7 @@ struct Request {
   Turn turn = Turn::kNoTurn;
   std::optional<Box> bounds;               ///< as in ConvertOptions
   std::optional<std::array<int, 6>> clip;  ///< as in ConvertOptions
+  std::optional<RunPart> part;             ///< only its bricks
   std::vector<GridKind> grids;             ///< in the order asked for
   std::optional<PartBy> partBy;            ///< what parts are; nothing: defaultPartBy()
   bool splits = false;                     ///< the grid density becomes a grid for each part
@@ -89,7 +90,7 @@ struct Request {
   SurfaceOptions surface;
   RunOptions run;
   /// True if not all voxels are wanted.
-  bool crops() const { return bounds || clip; }
+  bool crops() const { return bounds || clip || part; }
 
   /// True if it matters what materials and images look like.
   bool hasLooks() const;

@@ -1,0 +1,111 @@
+// Ranges of bricks for runs in parts.
+
+#include "libvox/pipeline/cut.h"
+
+#include "libvox/mesh/area_vector.h"
+#include "libvox/pipeline/few_polygons.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace vox {
+namespace {
+
+using openvdb::Coord;
+
+struct FileOrder {
+  bool operator()(const Coord& a, const Coord& b) const { return isBefore(a, b); }
+};
+using Costs = std::map<Coord, std::uint64_t, FileOrder>;
+
+/// Adds the area of a triangle to the bricks that it meets, in pieces of a quarter of a brick.
+class TriangleCosts {
+ public:
+  TriangleCosts(const Region& region, Costs& costs) : region_(region), costs_(costs) {}
+
+  void add(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    constexpr double kLongest = kBrickSide / 4.0;
+    const double ab = (b - a).squaredNorm();
+    const double bc = (c - b).squaredNorm();
+    const double ca = (a - c).squaredNorm();
+    const double longest = std::max({ab, bc, ca});
+    if (longest > kLongest * kLongest) {
+      if (ab == longest) return addHalves(c, a, b);
+      if (bc == longest) return addHalves(a, b, c);
+      return addHalves(b, c, a);
+    }
+    const Vec3d middle = (a + b + c) / 3;
+    const Coord voxel = Coord::round(openvdb::Vec3d(middle.data()));
+    if (region_.box() && !region_.box()->isInside(voxel)) return;
+    constexpr double kUnits = 1024;  // of a square voxel
+    const double area = (b - a).cross(c - a).norm() / 2;
+    const std::uint64_t cost = 1 + static_cast<std::uint64_t>(kUnits * area);
+    costs_[voxel >> kBrickLog2] += cost;
+  }
+
+ private:
+  /// Cuts the side from a to b.
+  void addHalves(const Vec3d& top, const Vec3d& a, const Vec3d& b) {
+    const Vec3d middle = (a + b) / 2;
+    add(top, a, middle);
+    add(top, middle, b);
+  }
+
+  const Region& region_;
+  Costs& costs_;
+};
+
+}  // namespace
+
+BrickCosts costsOf(std::span<const PreparedSurface> surfaces, const Region& region) {
+  Costs costs;
+  TriangleCosts triangles(region, costs);
+  for (const PreparedSurface& surface : surfaces) {
+    const std::optional<PolygonMesh> few = fewPolygons(surface.base, levelOf(surface.way));
+    const PolygonMesh& polygons = few ? *few : surface.base.mesh;
+    const auto& p = polygons.points;
+    for (Index f = 0; f < polygons.faceCount(); ++f) {
+      const auto face = polygons.face(f);
+      for (std::size_t i = 1; i + 1 < face.size(); ++i)
+        triangles.add(p[face[0]], p[face[i]], p[face[i + 1]]);
+    }
+  }
+  BrickCosts sorted;
+  for (const auto& [brick, cost] : costs) {
+    sorted.bricks.push_back(brick);
+    sorted.costs.push_back(cost);
+  }
+  return sorted;
+}
+
+std::vector<BrickShare> cutInto(int count, const BrickCosts& costs) {
+  double all = 0;
+  for (const std::uint64_t cost : costs.costs) all += static_cast<double>(cost);
+  const auto parts = static_cast<std::size_t>(count);
+  // Coord::max() comes after all bricks.
+  std::vector<Coord> begins(parts + 1, Coord::max());
+  std::vector<BrickShare> shares(parts);
+  double before = 0;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < costs.bricks.size(); ++i) {
+    // Where its middle lies among all costs tells the part of a brick.
+    const auto cost = static_cast<double>(costs.costs[i]);
+    const auto part = static_cast<std::size_t>((before + cost / 2) / all * count);
+    last = std::clamp(part, last, parts - 1);
+    before += cost;
+    BrickShare& share = shares[last];
+    if (share.bricks++ == 0) begins[last] = costs.bricks[i];
+    share.cost += cost / all;
+  }
+  for (std::size_t i = parts; i-- > 0;)  // parts without bricks begin where the next one does
+    if (shares[i].bricks == 0) begins[i] = begins[i + 1];
+  for (std::size_t i = 0; i < parts; ++i) {
+    if (i > 0) shares[i].range.begin = begins[i];
+    if (i + 1 < parts) shares[i].range.end = begins[i + 1];
+  }
+  return shares;
+}
+
+}  // namespace vox
