@@ -89,8 +89,17 @@ struct CellStore {
   std::vector<TriangleCell> triangles;
   std::vector<BinnedCell> binned;
   const std::vector<openvdb::Coord>* onlyBins =
-      nullptr;           ///< if not null: the bins of interest, sorted
-  Region region = {};    ///< of interest are the bins that it meets
+      nullptr;         ///< if not null: the bins of interest, sorted
+  Region region = {};  ///< of interest are the bins that it meets
+
+  /// Whether the bins of a box of voxels are of no interest to its region.
+  bool isFar(const openvdb::CoordBBox& box) const {
+    constexpr int kLast = kBinSide - 1;
+    if (!region.hasBricks()) return false;
+    const openvdb::Coord low = box.min() & ~kLast;
+    const openvdb::Coord high = (box.max() & ~kLast).offsetBy(kLast);
+    return !region.meetsBricks({low, high});
+  }
 
   std::uint64_t bytes() const {
     return newton.capacity() * sizeof(NewtonCell) + polynomial.capacity() * sizeof(PolynomialCell) +

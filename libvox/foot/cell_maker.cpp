@@ -166,7 +166,24 @@ float CellMaker::biasOf(unsigned sides) const {
   return options_.creases && sides != 0 ? kCreaseBias : 0;
 }
 
+/// Whether a piece, with its tube, reaches no bin of interest.
+bool CellMaker::isFar(const LimitPiece& piece) const {
+  if (!store_.region.hasBricks()) return false;
+  Vec3d low = piece.points[0][0], high = low;
+  for (const auto& row : piece.points)
+    for (const Vec3d& point : row) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    }
+  const double reach = 2.0 * options_.reach + 1;  // around a boundary the tube is wider
+  low.array() -= reach;
+  high.array() += reach;
+  return store_.isFar({openvdb::Coord::floor(openvdb::Vec3d(low.data())),
+                       openvdb::Coord::ceil(openvdb::Vec3d(high.data()))});
+}
+
 void CellMaker::piece(const LimitPiece& piece) {
+  if (isFar(piece)) return;
   piece_ = &piece;
   const float bias = biasOf(piece.boundarySides);
   if (piece.boundarySides != kAllSides && ribbon_.set(piece, bias != 0))
@@ -307,6 +324,7 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
 bool CellMaker::addPolynomialCell(const Shape& shape) {
   const Prism prism = prismOf(shape, 0);
   if (prism.box.empty()) return true;
+  if (store_.isFar(prism.box)) return true;
   PolynomialCell& cell = store_.polynomial.emplace_back();
   cell.prism = prism;
   if (!fitFoot(shape.c, {shape.alongA, shape.alongB, shape.normal}, cell)) {

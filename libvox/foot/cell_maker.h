@@ -30,6 +30,7 @@ class CellMaker : public LimitSink {
  private:
   struct Shape;
 
+  bool isFar(const LimitPiece& piece) const;
   void makeCell(const ParameterBox& part, unsigned sides, int depth);
   void splitCell(const ParameterBox& part, unsigned sides, int depth, bool alongU);
   Prism prismOf(const Shape& shape, unsigned sides) const;

@@ -75,8 +75,7 @@ Region Region::operator&(const Region& other) const {
 Region Region::grown(int voxels) const {
   Region more = *this;
   if (isEmpty()) return more;
-  if (box_)
-    more.box_ = CoordBBox(box_->min().offsetBy(-voxels), box_->max().offsetBy(voxels));
+  if (box_) more.box_ = CoordBBox(box_->min().offsetBy(-voxels), box_->max().offsetBy(voxels));
   if (bricks_) more.margin_ += voxels;
   return more;
 }

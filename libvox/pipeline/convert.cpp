@@ -250,7 +250,9 @@ MarkedVoxels markedVoxels(const Request& request, const Region& region, Prepared
                           Progress& progress, ConvertReport& report) {
   const StageTimer timer(report.surfaceSeconds);
   const auto mask = markObjects(request, prepared, progress, report);
-  if (!request.crops()) return {mask, mask};
+  const bool hasMore =  // than asked for
+      needsInside(request.grids, request.volume) || request.volume.edge == Edge::kSoft;
+  if (!request.crops() || !hasMore) return {mask, mask};
   const Region around = region.grown(kMarginOfSoft);
   for (PreparedSurface& surface : prepared.surfaces)
     if (surface.voxels) crop(*surface.voxels, around);

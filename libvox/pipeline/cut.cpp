@@ -20,13 +20,14 @@ struct FileOrder {
 };
 using Costs = std::map<Coord, std::uint64_t, FileOrder>;
 
-/// Adds the area of a triangle to the bricks that it meets, in pieces of a quarter of a brick.
+/// Adds the area of a triangle to the bricks that it meets, in pieces of half a brick.
 class TriangleCosts {
  public:
-  TriangleCosts(const Region& region, Costs& costs) : region_(region), costs_(costs) {}
+  TriangleCosts(const Region& region, Costs& costs)
+      : region_(region), costs_(costs), last_(costs.end()) {}
 
   void add(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    constexpr double kLongest = kBrickSide / 4.0;
+    constexpr double kLongest = kBrickSide / 2.0;
     const double ab = (b - a).squaredNorm();
     const double bc = (c - b).squaredNorm();
     const double ca = (a - c).squaredNorm();
@@ -42,7 +43,9 @@ class TriangleCosts {
     constexpr double kUnits = 1024;  // of a square voxel
     const double area = (b - a).cross(c - a).norm() / 2;
     const std::uint64_t cost = 1 + static_cast<std::uint64_t>(kUnits * area);
-    costs_[voxel >> kBrickLog2] += cost;
+    const Coord brick = voxel >> kBrickLog2;
+    if (last_ == costs_.end() || last_->first != brick) last_ = costs_.try_emplace(brick, 0).first;
+    last_->second += cost;
   }
 
  private:
@@ -55,6 +58,7 @@ class TriangleCosts {
 
   const Region& region_;
   Costs& costs_;
+  Costs::iterator last_;
 };
 
 }  // namespace

@@ -230,7 +230,8 @@ class LevelSetMaker {
   }
 
   openvdb::FloatTree::Ptr bandOfSolids() {
-    const BandOptions options{settings_.band.in, settings_.band.out, voxelSize_, false, 0, isLocal_};
+    const BandOptions options{settings_.band.in, settings_.band.out, voxelSize_, false, 0,
+                              isLocal_};
     const bool overlap = solidsMayMeet();
     const double share = open_.empty() ? 1 : 0.9;  // of the stage
     if (!overlap)
@@ -263,8 +264,7 @@ class LevelSetMaker {
     if (isLocal_) {
       if (!band.jumps.empty()) refuseMeeting(band.jumps);
       crop(*band.tree, region_);
-      setInnerBricks(*band.tree, region_, boxOfSolids(),
-                     -backgroundOf(narrow.in, voxelSize_),
+      setInnerBricks(*band.tree, region_, boxOfSolids(), -backgroundOf(narrow.in, voxelSize_),
                      [&](std::span<const openvdb::Coord> voxels) { return areInside(voxels); });
       return band.tree;
     }

@@ -89,7 +89,8 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
                                       *storeOfThread_.local(), filter, whole ? &*whole : nullptr);
   };
   Submeshes submeshes = cutIntoSubmeshes(surface.base, surface.options);
-  // A band needs all cells, unless it is told otherwise: sides of voxels follow from those of others.
+  // A band needs all cells, unless it is told otherwise: sides of voxels follow from those of
+  // others.
   skipFarFrom(options_.places ? surface.region : region_, double{options_.reach} + 1, submeshes);
   runSubmeshes(submeshes, progress, part, walkOfThread,
                [&](const std::unique_ptr<CellWalk>& walk, const SubmeshTask& task) {

@@ -44,7 +44,8 @@ Solid solidOf(const openvdb::MaskTree& active, std::span<const PreparedSurface> 
               const VolumeSettings& settings, const MemoryBudget& budget, Progress& progress,
               std::vector<std::string>& warnings);
 
-/// Triangles that follow some faces of a surface; the polygons themselves where it stops at a level.
+/// Triangles that follow some faces of a surface; the polygons themselves where it stops at a
+/// level.
 /// @param faces      ascending, whole components
 /// @param tolerance  voxels
 /// @throws LimitError

@@ -127,8 +127,7 @@ const BrickShare& shareOf(const RunPart& part, const std::vector<BrickShare>& sh
 
 /// Cuts the region of a scene into the parts of a run, and takes one of them.
 std::vector<BrickShare> takePart(const RunPart& part, PreparedScene& prepared) {
-  std::vector<BrickShare> shares =
-      cutInto(part.count, costsOf(prepared.surfaces, prepared.region));
+  std::vector<BrickShare> shares = cutInto(part.count, costsOf(prepared.surfaces, prepared.region));
   prepared.region = prepared.region & Region(shareOf(part, shares).range);
   return shares;
 }
