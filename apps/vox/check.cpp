@@ -14,6 +14,7 @@
 #include "libvox/inspect/topology.h"
 #include "libvox/io/read_vdb.h"
 #include "libvox/options/option_text.h"
+#include "libvox/options/run_part.h"
 #include "libvox/pipeline/request.h"
 #include "libvox/volume/joined_parts.h"
 
@@ -166,6 +167,10 @@ void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
                const CheckArguments& options, Check& check) {
   if (!grid.transform().isLinear() || !grid.hasUniformVoxels())
     throw InputError(options.file + ": a mesh can be held against voxels that are cubes only");
+  if (grid[kRunPartMetadata])
+    throw InputError(options.file +
+                     ": holds a part of its grids (--part): a mesh can be held against whole grids "
+                     "only; put the parts together with vox merge");
   const ConvertOptions made = optionsOfFile(grid, options);
   if (made.bounds || made.clip)
     throw InputError(

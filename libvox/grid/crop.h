@@ -13,6 +13,7 @@ namespace vox {
 /// Unlike OpenVDB's Tree::clip, it makes no leaves of background along the sides of the box.
 template <class TreeT>
 void cropToBox(TreeT& tree, const openvdb::CoordBBox& box) {
+  if (box.empty()) return tree.clear();
   using Leaf = typename TreeT::LeafNodeType;
   using Lower = typename TreeT::RootNodeType::ChildNodeType::ChildNodeType;
   using Value = typename TreeT::ValueType;
@@ -61,6 +62,15 @@ void cropToBox(TreeT& tree, const openvdb::CoordBBox& box) {
   removeAll(outside, Leaf::LEVEL + 1);
 }
 
+/// Whether a node has no child and no active tile, and all its tiles have the background.
+template <class Node>
+bool isBackground(const Node& node, const typename Node::ValueType& background) {
+  if (!node.isChildMaskOff() || !node.isValueMaskOff()) return false;
+  for (openvdb::Index i = 0; i < Node::NUM_VALUES; ++i)
+    if (node.getTable()[i].getValue() != background) return false;
+  return true;
+}
+
 /// Gives all leaves and bricks outside the bricks of a region the background.
 template <class TreeT>
 void cropToBricks(TreeT& tree, const Region& region) {
@@ -98,15 +108,18 @@ void cropToBricks(TreeT& tree, const Region& region) {
           lower.addTile(Leaf::LEVEL + 1, lower.offsetToGlobalCoord(j), background, false);
     }
   });
+  for (const Upper* upper : uppers)
+    if (isBackground(*upper, background))
+      tree.addTile(Upper::LEVEL + 1, upper->origin(), background, false);
+  tree.root().eraseBackgroundTiles();
 }
 
 /// Switches off all voxels of a tree outside a region, and gives them the background. At the margin
 /// of bricks whole leaves stay.
 template <class TreeT>
 void crop(TreeT& tree, const Region& region) {
-  if (region.isEmpty()) return tree.clear();
-  if (region.hasBricks()) cropToBricks(tree, region);
   if (region.box()) cropToBox(tree, *region.box());
+  if (region.hasBricks()) cropToBricks(tree, region);
 }
 
 }  // namespace vox

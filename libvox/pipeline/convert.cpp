@@ -79,15 +79,19 @@ openvdb::MaskGrid::Ptr cropped(const openvdb::MaskGrid& mask, const Region& regi
   return grid;
 }
 
-/// Crops a grid. A level set keeps the inner sides of nodes without active voxels.
+/// Crops a grid. A level set keeps the inner sides of nodes without active voxels. Bricks stay as
+/// they are in the whole.
 void cropGrid(openvdb::GridBase& grid, const Region& region) {
   if (region.isAll()) return;
   const auto cropTree = [&](auto& typed) {
-    crop(typed.tree(), region);
-    if (typed.getGridClass() == openvdb::GRID_LEVEL_SET)
-      openvdb::tools::prune(typed.tree());
-    else
-      openvdb::tools::pruneInactive(typed.tree());
+    if (region.box()) {
+      cropToBox(typed.tree(), *region.box());
+      if (typed.getGridClass() == openvdb::GRID_LEVEL_SET)
+        openvdb::tools::prune(typed.tree());
+      else
+        openvdb::tools::pruneInactive(typed.tree());
+    }
+    if (region.hasBricks()) cropToBricks(typed.tree(), region);
   };
   using Kinds = openvdb::TypeList<openvdb::MaskGrid, openvdb::FloatGrid, openvdb::Vec3SGrid,
                                   openvdb::Int32Grid>;

@@ -1,0 +1,313 @@
+// Runs in parts: bricks, cuts, and grids that are those of the whole run, brick by brick.
+
+#include "libvox/options/run_part.h"
+
+#include "libvox/core/error.h"
+#include "libvox/grid/bricks.h"
+#include "libvox/grid/crop.h"
+#include "libvox/grid/openvdb.h"
+#include "libvox/grid/region.h"
+#include "libvox/pipeline/convert.h"
+#include "libvox/pipeline/cut.h"
+#include "tests/conversion.h"
+#include "tests/scenes.h"
+#include "tests/shapes.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace vox;
+using namespace vox::test;
+using openvdb::Coord;
+using openvdb::CoordBBox;
+
+namespace {
+
+const std::vector<GridKind> kAllKinds = {GridKind::kMask,   GridKind::kDensity, GridKind::kSurface,
+                                         GridKind::kNormal, GridKind::kColor,   GridKind::kPart};
+
+Coord randomCoord(std::mt19937& random, int most) {
+  std::uniform_int_distribution<int> number(-most, most);
+  return {number(random), number(random), number(random)};
+}
+
+Conversion partOf(const Scene& scene, ConvertOptions options, int number, int count) {
+  options.part = RunPart{number, count};
+  return convert(scene, resolve(scene, options));
+}
+
+template <class Node>
+bool areSame(const Node& a, const Node& b) {
+  if (a.getChildMask() != b.getChildMask() || a.getValueMask() != b.getValueMask()) return false;
+  for (openvdb::Index i = 0; i < Node::NUM_VALUES; ++i) {
+    const auto& ofA = a.getTable()[i];
+    const auto& ofB = b.getTable()[i];
+    const bool same =
+        a.isChildMaskOn(i) ? *ofA.getChild() == *ofB.getChild() : ofA.getValue() == ofB.getValue();
+    if (!same) return false;
+  }
+  return true;
+}
+
+/// What a brick of a tree is: a lower node, or a tile.
+template <class TreeT>
+struct Bricks {
+  using Upper = typename TreeT::RootNodeType::ChildNodeType;
+  using Lower = typename Upper::ChildNodeType;
+  std::map<Coord, const Lower*> nodes;
+  std::map<Coord, std::pair<typename TreeT::ValueType, bool>> tiles;  // but background
+
+  void add(const TreeT& tree) {
+    std::vector<const Upper*> uppers;
+    tree.getNodes(uppers);
+    for (const Upper* upper : uppers)
+      for (openvdb::Index i = 0; i < Upper::NUM_VALUES; ++i) {
+        const Coord at = upper->offsetToGlobalCoord(i);
+        if (upper->isChildMaskOn(i)) {
+          CHECK(nodes.emplace(at, upper->getTable()[i].getChild()).second);
+          continue;
+        }
+        const auto value = upper->getTable()[i].getValue();
+        if (value != tree.background() || upper->isValueMaskOn(i))
+          CHECK(tiles.emplace(at, std::pair(value, upper->isValueMaskOn(i))).second);
+      }
+  }
+};
+
+/// Checks that some trees together have the bricks of another one, each once.
+template <class GridT>
+void checkTogether(const openvdb::GridBase& whole, const std::vector<Conversion>& parts,
+                   std::size_t grid) {
+  if (!whole.isType<GridT>()) return;
+  Bricks<typename GridT::TreeType> expected, found;
+  expected.add(static_cast<const GridT&>(whole).tree());
+  for (const Conversion& part : parts)
+    found.add(static_cast<const GridT&>(*part.grids[grid]).tree());
+  CHECK(found.tiles == expected.tiles);
+  CHECK(found.nodes.size() == expected.nodes.size());
+  std::size_t same = 0;
+  for (const auto& [at, node] : expected.nodes)
+    same += found.nodes.count(at) == 1 && areSame(*node, *found.nodes[at]) ? 1 : 0;
+  CHECK(same == expected.nodes.size());
+}
+
+/// Checks parts of a conversion against the whole of it.
+void checkParts(const Scene& scene, const ConvertOptions& options, int count) {
+  CAPTURE(count);
+  const Conversion whole = convert(scene, resolve(scene, options));
+  std::vector<Conversion> parts;
+  for (int number = 1; number <= count; ++number)
+    parts.push_back(partOf(scene, options, number, count));
+  for (std::size_t grid = 0; grid < whole.grids.size(); ++grid) {
+    CAPTURE(whole.grids[grid]->getName());
+    for (const Conversion& part : parts) {
+      REQUIRE(part.grids.size() == whole.grids.size());
+      CHECK(part.grids[grid]->getName() == whole.grids[grid]->getName());
+      CHECK(part.grids[grid]->getGridClass() == whole.grids[grid]->getGridClass());
+      CHECK(part.grids[grid]->transform() == whole.grids[grid]->transform());
+    }
+    checkTogether<openvdb::MaskGrid>(*whole.grids[grid], parts, grid);
+    checkTogether<openvdb::FloatGrid>(*whole.grids[grid], parts, grid);
+    checkTogether<openvdb::Vec3SGrid>(*whole.grids[grid], parts, grid);
+    checkTogether<openvdb::Int32Grid>(*whole.grids[grid], parts, grid);
+  }
+}
+
+std::vector<Coord> bricksOf(const CoordBBox& voxels) {
+  std::vector<Coord> bricks;
+  for (auto at = CoordBBox(voxels.min() >> kBrickLog2, voxels.max() >> kBrickLog2).begin(); at;
+       ++at)
+    bricks.push_back(*at);
+  return bricks;
+}
+
+}  // namespace
+
+TEST_CASE("bricks come in the order in which OpenVDB writes lower nodes", "[run-part][property]") {
+  std::mt19937 random(3);
+  openvdb::MaskTree tree;
+  for (int i = 0; i < 2000; ++i) tree.setValueOn(randomCoord(random, 20000));
+  using Lower = openvdb::MaskTree::RootNodeType::ChildNodeType::ChildNodeType;
+  std::vector<const Lower*> nodes;
+  std::as_const(tree).getNodes(nodes);  // depth first, as in the file
+  REQUIRE(nodes.size() > 1000);
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const Coord a = nodes[i - 1]->origin() >> kBrickLog2;
+    const Coord b = nodes[i]->origin() >> kBrickLog2;
+    CHECK(isBefore(a, b));
+    CHECK_FALSE(isBefore(b, a));
+  }
+  CHECK_FALSE(isBefore({1, 2, 3}, {1, 2, 3}));
+}
+
+TEST_CASE("regions of bricks hold what brute force finds", "[run-part][property]") {
+  std::mt19937 random(4);
+  for (int round = 0; round < 200; ++round) {
+    BrickRange range{randomCoord(random, 40), randomCoord(random, 40)};
+    if (isBefore(*range.end, *range.begin)) std::swap(range.begin, range.end);
+    if (round % 5 == 0) range.begin.reset();
+    if (round % 7 == 0) range.end.reset();
+    const Region region(range);
+    const Coord low = randomCoord(random, 5000);
+    const CoordBBox box(low, low.offsetBy(static_cast<int>(random() % 700)));
+    const std::vector<Coord> bricks = bricksOf(box);
+    const bool meets = std::any_of(bricks.begin(), bricks.end(),
+                                   [&](const Coord& b) { return range.contains(b); });
+    CHECK(region.meetsBricks(box) == meets);
+    CHECK(region.contains(low) == range.contains(low >> kBrickLog2));
+    constexpr int kMargin = 9;
+    CoordBBox grown = box;
+    grown.expand(kMargin);
+    CHECK(region.grown(kMargin).meetsBricks(box) == region.meetsBricks(grown));
+  }
+}
+
+TEST_CASE("cropping to bricks keeps their nodes and cuts large tiles", "[run-part]") {
+  openvdb::FloatTree tree(3.0F);
+  tree.fill(CoordBBox(Coord(-4096), Coord(4095)), -1.0F, true);  // tiles of the root
+  tree.setValueOn({100, 100, 100}, 7.0F);
+  tree.setValueOn({5000, 0, 0}, 8.0F);
+  const BrickRange range{Coord(0, 0, 0), Coord(0, 1, 0)};  // 32 bricks along z
+  openvdb::FloatTree part(tree);
+  crop(part, Region(range));
+  CHECK(part.activeVoxelCount() == 32ULL * 128 * 128 * 128);
+  CHECK(part.getValue({100, 100, 100}) == 7.0F);
+  CHECK(part.getValue({127, 127, 4095}) == -1.0F);
+  CHECK(part.getValue({0, 128, 0}) == 3.0F);
+  CHECK(part.getValue({5000, 0, 0}) == 3.0F);
+  CHECK_FALSE(part.isValueOn({-1, 0, 0}));
+}
+
+TEST_CASE("bricks are cut into ranges of about equal cost", "[run-part][property]") {
+  std::mt19937 random(5);
+  for (const int count : {1, 2, 3, 7, 64, 1000}) {
+    std::map<Coord, std::uint64_t, bool (*)(const Coord&, const Coord&)> costs(isBefore);
+    for (int i = 0; i < 300; ++i) costs[randomCoord(random, 60)] = 1 + random() % 1000;
+    BrickCosts all;
+    double sum = 0, heaviest = 0;
+    for (const auto& [brick, cost] : costs) {
+      all.bricks.push_back(brick);
+      all.costs.push_back(cost);
+      sum += static_cast<double>(cost);
+      heaviest = std::max(heaviest, static_cast<double>(cost));
+    }
+    const std::vector<BrickShare> shares = cutInto(count, all);
+    REQUIRE(shares.size() == static_cast<std::size_t>(count));
+    double together = 0;
+    for (const BrickShare& share : shares) {
+      CHECK(share.cost <= 1.0 / count + heaviest / sum + 1e-12);
+      together += share.cost;
+    }
+    CHECK(together == Approx(1));
+    for (int i = 0; i < 500; ++i) {  // also bricks without a cost are in one range
+      const Coord brick = randomCoord(random, 100);
+      CHECK(std::count_if(shares.begin(), shares.end(), [&](const BrickShare& share) {
+              return share.range.contains(brick);
+            }) == 1);
+    }
+  }
+}
+
+TEST_CASE("parts have the grids of the whole run, brick by brick", "[run-part][pipeline]") {
+  ConvertOptions options;
+  options.grids = kAllKinds;
+  options.dim = 300;
+  SECTION("surface") {
+    checkParts(oneObject(torusGrid(8, 5)), options, 3);
+  }
+  SECTION("solid, more parts than bricks") {
+    options.volume.fill = Fill::kSolid;
+    checkParts(oneObject(cube()), options, 64);
+  }
+  SECTION("soft") {
+    options.grids = {GridKind::kDensity, GridKind::kNormal, GridKind::kColor};
+    options.volume.edge = Edge::kSoft;
+    checkParts(oneObject(torusGrid(8, 5)), options, 2);
+  }
+  SECTION("open") {
+    checkParts(oneObject(sheet(5, 4)), options, 3);
+  }
+  SECTION("several objects that meet, solid") {
+    options.volume.fill = Fill::kSolid;
+    checkParts(sceneOf({cube(), moved(torusGrid(8, 5), {0.5, 0.5, 0.7})}), options, 4);
+  }
+  SECTION("polygons, with a box") {
+    options.grids = {GridKind::kMask, GridKind::kSurface, GridKind::kNormal};
+    options.until = StopRule{.levels = 2};
+    options.bounds = {-0.8, -0.8, -0.3, 0.9, 0.5, 0.8};
+    checkParts(oneObject(cube()), options, 3);
+  }
+}
+
+TEST_CASE("large level sets are made brick by brick", "[run-part][level-set][pipeline]") {
+  ConvertOptions options;
+  options.grids = {GridKind::kSurface};
+  options.dim = 1100;
+  SECTION("with inner bricks") {
+    checkParts(oneObject(cube()), options, 5);
+  }
+  SECTION("a sheet") {
+    options.dim = 1900;
+    checkParts(oneObject(sheet(5, 4)), options, 3);
+  }
+}
+
+TEST_CASE("a part of a large surface that meets itself is refused", "[run-part][error]") {
+  // One side of a torus is pulled through the other one.
+  PolygonMesh mesh = torusGrid(8, 5);
+  for (Vec3d& p : mesh.points)
+    if (p.x() > 0.5) p.x() = 1 - 2.5 * p.x();
+  ConvertOptions options;
+  options.grids = {GridKind::kSurface};
+  options.dim = 2000;
+  const Scene scene = oneObject(mesh);
+  bool isRefused = false;
+  for (int number = 1; number <= 3; ++number) try {
+      partOf(scene, options, number, 3);
+    } catch (const MeshError& error) {
+      isRefused = true;
+      CHECK(std::string(error.what()).find("meets itself near the voxel (") != std::string::npos);
+    }
+  CHECK(isRefused);
+}
+
+TEST_CASE("parts have the same bytes for any number of threads", "[run-part][parallel]") {
+  ConvertOptions options;
+  options.grids = kAllKinds;
+  options.dim = 300;
+  const Scene scene = oneObject(torusGrid(8, 5));
+  options.run.threads = 1;
+  const std::string one = bytesOf(partOf(scene, options, 2, 3));
+  for (const int threads : {2, 8}) {
+    options.run.threads = threads;
+    CHECK(bytesOf(partOf(scene, options, 2, 3)) == one);
+  }
+}
+
+TEST_CASE("files of parts say which they are", "[run-part]") {
+  ConvertOptions options;
+  options.dim = 40;
+  const Conversion part = partOf(oneObject(cube()), options, 2, 3);
+  CHECK(part.grids[0]->metaValue<openvdb::Int32>(kRunPartMetadata) == 2);
+  CHECK(part.grids[0]->metaValue<openvdb::Int32>(kRunPartsMetadata) == 3);
+  CHECK(part.grids[0]->metaValue<std::string>("vox_options") == "dim=40");
+}
+
+TEST_CASE("impossible parts are refused", "[run-part][error]") {
+  const Scene scene = oneObject(cube());
+  for (const RunPart part : {RunPart{0, 3}, RunPart{4, 3}, RunPart{1, 0}, RunPart{-1, -1},
+                             RunPart{1, kMostRunParts + 1}}) {
+    ConvertOptions options;
+    options.part = part;
+    CHECK_THROWS_AS(resolve(scene, options), UsageError);
+  }
+  ConvertOptions options;
+  options.part = RunPart{1, 2};
+  options.split = Split::kPart;
+  CHECK_THROWS_AS(resolve(scene, options), UsageError);
+}
