@@ -182,6 +182,15 @@ TEST_CASE("OBJ blocks of every size give the same mesh and the same oddities", "
   CHECK(lineOf(whole, Oddity::kGluedComment) == 27);
 }
 
+TEST_CASE("a continued line may end with an empty one, in OBJ blocks of every size", "[io][obj]") {
+  const std::string content =
+      "v 0 0 0\nvn 0 0 1 \\\n\nv 1 0 0\nl 1 2 \\\n# \\\nv 0 1 0\ns 1 \\\n\\\n\nf 1 2 3\nf 1 2 4\n";
+  for (const char* lineEnd : {"\n", "\r\n", "\r"}) {
+    const Outcome outcome = sameInAllBlocks(kObj, withLineEnds(content, lineEnd));
+    CHECK(outcome.all.find("mesh:12: ") == 0);  // three vertices before it
+  }
+}
+
 TEST_CASE("OBJ blocks of every size name the first error by its line", "[io][obj][error]") {
   const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   for (const auto& [rest, message] : std::vector<std::array<std::string, 2>>{

@@ -15,8 +15,9 @@ namespace vox {
 template <class Item>
 class Buckets {
  public:
-  /// Calls forEachOf(i, put) for each i in [0, count), twice, from any thread. It calls put(bucket,
-  /// item) for its items, fewer than 2^32 in all, with bucket < `buckets`, the same both times.
+  /// Calls forEachOf(i, put) for each i in [0, count), twice, from any thread. forEachOf calls
+  /// put(bucket, item) for its items, fewer than 2^32 in all, with bucket < `buckets`, the same
+  /// both times.
   /// @param grain  numbers i of a task; each task has a count for each bucket
   template <class ForEachOf>
   Buckets(Index count, Index buckets, ForEachOf&& forEachOf, std::size_t grain = 0) {

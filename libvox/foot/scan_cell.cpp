@@ -179,6 +179,7 @@ void solveTriangle(const TriangleCell& cell, const Float3& shift, Feet& feet) {
 bool gatherRows(const PrismRows& rows, RowsPlace& at, Feet& feet) {
   const D d;
   const hn::RebindToUnsigned<D> du;
+  static_assert(hn::MaxLanes(D()) <= Feet::kSlack);
   constexpr std::size_t kMostOfGroup = std::size_t{PrismRows::kGroup} * kBinSide;
   PrismRows::Group first, last;
   std::size_t count = feet.count;
@@ -347,7 +348,7 @@ void solveFeet(const TriangleCell& cell, const openvdb::Coord& binOrigin, Feet& 
   HWY_DYNAMIC_DISPATCH(solveTriangle)(cell, shiftOf(cell.prism, binOrigin), feet);
 }
 
-bool gather(const PrismRows& rows, RowsPlace& at, Feet& feet) {
+bool gatherVoxels(const PrismRows& rows, RowsPlace& at, Feet& feet) {
   return HWY_DYNAMIC_DISPATCH(gatherRows)(rows, at, feet);
 }
 

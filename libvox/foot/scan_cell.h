@@ -54,14 +54,15 @@ void scanPolynomials(const PolynomialCell& cell, const openvdb::Coord& binOrigin
 /// Bits of the voxels of each leaf of a bin: bit y << 3 | z of word x.
 using BinMask = std::array<std::array<std::uint64_t, 8>, FootBrick::kLeaves>;
 
-/// Where a walk over the rows of a prism goes on.
+/// Where a walk over the rows of a prism goes on: at rows y8 .. y8 + 7 of a slice.
 struct RowsPlace {
   int x, y8;
 };
 
 /// Adds voxels of a prism to `feet`, as many as there is place for, from `at` on.
 /// @return whether these were the last ones
-bool gather(const PrismRows& rows, RowsPlace& at, Feet& feet);
+bool gatherVoxels(const PrismRows& rows, RowsPlace& at, Feet& feet);
+
 /// Takes voxels out that are not wanted.
 void keepWanted(const BinMask& wanted, Feet& feet);
 
@@ -75,7 +76,7 @@ void scanFeet(const Cell& cell, const openvdb::Coord& binOrigin, const BinMask* 
   RowsPlace at = {rows.low[0], rows.low[1] & ~7};
   for (bool done = false; !done;) {
     feet.count = 0;
-    done = gather(rows, at, feet);
+    done = gatherVoxels(rows, at, feet);
     if (wanted != nullptr) keepWanted(*wanted, feet);
     if (feet.count == 0) continue;
     solveFeet(cell, binOrigin, feet);

@@ -33,7 +33,9 @@ class PartBytes : public std::streambuf {
 /// stream ends the work; the stream then has some of the parts.
 ///
 /// @param count  number of parts
-/// @param make   called once for every part in [0, count), on any thread; appends its bytes to `to`
+/// @param make   called once for every part in [0, count), on any thread; appends its bytes to
+/// `to`;
+///   it must not wait for other tasks, such as parallel loops
 void writeInOrder(std::ostream& stream, std::size_t count,
                   const std::function<void(std::size_t part, PartBytes& to)>& make);
 

@@ -127,17 +127,15 @@ std::string_view TextScanner::tokenOnAnyLine() {
 
 bool TextScanner::nextLine() {
   bool inComment = false;
-  for (; at_ != end_; ++at_) {
+  while (at_ != end_) {
     if (*at_ == '\n' || *at_ == '\r') {
       skipLineEnd();
       return at_ != end_;
     }
     if (*at_ == '#') inComment = rules_.hashComments;
-    while (!inComment && at_ != end_ && continuesHere()) {
-      ++at_;
-      skipLineEnd();
-    }
-    if (at_ == end_) break;
+    const bool continues = !inComment && continuesHere();
+    ++at_;
+    if (continues) skipLineEnd();
   }
   return false;
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 namespace vox {
+
 std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& adjacency) {
   const EdgeRanges ranges(mesh, adjacency);
   std::vector<std::vector<EdgeCorner>> sorted(ranges.size());

@@ -39,12 +39,12 @@ enum class CrowdedEdge {
 Joints joinFaces(const PolygonMesh& mesh, CrowdedEdge crowded);
 
 /// Gives every fan of faces around a vertex a vertex of its own. The fan with the lowest corner
-/// keeps the vertex; the others get copies, appended in order of (vertex, lowest corner).
+/// keeps the vertex; the others get copies, appended in order of (vertex, lowest corner). Parallel
+/// but for the vertices of several fans. Cost O(C log n) for fans of n corners.
 ///
 /// @param joints  corners at a vertex belong to one fan if joined edges connect them
 /// @return        for each appended point, the point that it copies
 /// @throws LimitError  there would be 2^32 - 1 points or more
-/// Parallel but for the vertices of several fans. Cost O(C log n) for fans of n corners.
 std::vector<Index> splitFans(PolygonMesh& mesh, const Adjacency& joints);
 
 }  // namespace vox

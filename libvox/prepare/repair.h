@@ -83,8 +83,8 @@ std::string summary(const RepairReport& report);
 ///     lie in each other, as in a keyhole, the face is split into convex faces that leave the holes
 ///     free (convex_faces.h);
 ///  3. drop duplicate faces: the first one stays; stitch T-junctions (stitch.h); then split
-///     concave faces, those that are not
-///     star-shaped (star_shaped.h), into convex ones, if the options say so;
+///     concave faces, those that are not star-shaped (star_shaped.h), into convex ones, if the
+///     options say so;
 ///  4. cut edges of three or more faces into sheets, and vertices into one copy per fan
 ///     (manifold.h);
 ///  5. chord interior vertices of two faces (chord.h), and repeat from 3 while that is needed;

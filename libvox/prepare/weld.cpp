@@ -1,6 +1,6 @@
-// Equal points are found by sorting their hashes, bucket by bucket; near points by a grid of cells
-// as wide as the tolerance. The points that stay are further apart than the tolerance, so a cell
-// holds only a few of them.
+// Equal points are found by their hashes, bucket by bucket: a table tells which buckets have any,
+// and these are sorted. Near points are found by a grid of cells as wide as the tolerance. The
+// points that stay are further apart than the tolerance, so a cell holds only a few of them.
 
 #include "libvox/prepare/weld.h"
 
