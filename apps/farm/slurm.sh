@@ -31,6 +31,7 @@ while [[ ${1-} == --* ]]; do
   esac
   shift 2
 done
+command -v sbatch >/dev/null || fail "sbatch (Slurm) is not installed" 1
 [ $# -ge 3 ] && [[ $mem =~ ^([1-9][0-9]*[MG])?$ && $cpus$doublings =~ ^[1-9][0-9]*$ ]] || usage
 parts=$1 out=$3
 inputs=("${@:2}")
