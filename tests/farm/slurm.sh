@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # apps/farm/slurm.sh on a real Slurm: one node, this machine, with folders, ports and a key of its own.
 # The merged file of 8 parts is that of the conversion as a whole. A task that exceeds its memory
-# fails alone, and all is cut into more parts. Usage: slurm.sh VOX SOURCE
+# fails alone, and its part alone is cut into halves. Usage: slurm.sh VOX SOURCE
 set -euo pipefail
 PATH=$PATH:/usr/sbin
 for program in slurmctld slurmd sbatch munged; do
@@ -96,6 +96,7 @@ idle() {
   jobs=$(squeue -h) && [ -z "$jobs" ]
 }
 farm() { "$source/apps/farm/slurm.sh" --mem 500M "$@"; }
+array_in() { sed -nE 's/^[0-9]+ of [0-9]+ parts: job ([0-9]+);.*/\1/p' "$1"; }
 states() { squeue -h -a -t all -r -o '%K %T' -j "$1" | sort -n; }
 cp "$source/scenes/toy_jack.obj" jack.obj
 options=(--dim 400 --grids density,surface)
@@ -106,32 +107,33 @@ VOX=$vox farm 8 jack.obj jack.vdb "${options[@]}" | tee submitted
 until_true 300 idle
 cmp jack.vdb whole.vdb || fail "8 parts"
 [ -z "$(ls jack.parts/*.vdb 2>/dev/null)" ] || fail "left $(ls jack.parts)"
-array=$(grep -oE 'parts: job [0-9]+' submitted | grep -oE '[0-9]+$')
+array=$(array_in submitted)
 [ "$(states "$array" | grep -c ' COMPLETED$')" -eq 8 ] || fail "$(states "$array")"
 rm -r jack.vdb jack.parts
 
-# Part 3 of 8 takes twice its memory. It alone fails; with 16 parts, none does.
+# Part 3 of 8 takes twice its memory, and so does its first half. Their halves do not.
 cat >hungry <<VOX
 #!/usr/bin/env bash
-case "\$*" in *'--part 3/8 '* | *'--part 1/2 '*) python3 -c 'import time; x = b"x" * 1000000000; time.sleep(300)' ;; esac
+case "\$*" in *'--part 3/8 '* | *'--part 5/16 '* | *'--part 1/2 '*) python3 -c 'import time; x = b"x" * 1000000000; time.sleep(300)' ;; esac
 exec '$vox' "\$@"
 VOX
 chmod +x hungry
 VOX=$folder/hungry farm 8 jack.obj jack.vdb "${options[@]}" | tee submitted
 until_true 300 idle
-array=$(grep -oE 'parts: job [0-9]+' submitted | grep -oE '[0-9]+$')
-states "$array"
-[ "$(states "$array" | grep -v ' COMPLETED$' | cut -d ' ' -f 1)" = 3 ] || fail "not part 3 alone"
+array=$(array_in submitted)
+[ "$(states "$array" | grep -v ' COMPLETED$' | cut -d ' ' -f 1)" = 3 ] || fail "$(states "$array")"
 grep -q 'exceeded memory limit' jack.parts/part.3_of_8.log || fail "part 3 failed otherwise"
-cat jack.parts/again_of_8.log
-grep -q '^16 parts' jack.parts/again_of_8.log || fail "not submitted again"
-cmp jack.vdb whole.vdb || fail "16 parts"
+cat jack.parts/again_of_{8,16}.log
+[ "$(states "$(array_in jack.parts/again_of_8.log)" | xargs)" = '5 FAILED 6 COMPLETED' ] || fail 16
+[ "$(states "$(array_in jack.parts/again_of_16.log)" | xargs)" = '9 COMPLETED 10 COMPLETED' ] ||
+  fail 32
+cmp jack.vdb whole.vdb || fail "halves"
 rm -r jack.vdb jack.parts
 
-# Nothing is submitted again if more parts do not help, or if there have been enough.
+# Nothing is submitted again if smaller parts do not help, or if there have been enough.
 VOX=$vox farm 2 jack.obj jack.vdb --grids nonsense
-VOX=$folder/hungry farm --doublings 0 2 jack.obj few.vdb "${options[@]}"
+VOX=$folder/hungry farm --halvings 0 2 jack.obj few.vdb "${options[@]}"
 until_true 300 idle
 grep -q 'error: a part failed, and not for memory' jack.parts/again_of_2.log || fail "bad option"
-grep -q 'no doublings left' few.parts/again_of_2.log || fail "doublings"
+grep -q 'no halvings left' few.parts/again_of_2.log || fail "halvings"
 [ ! -e jack.vdb ] && [ ! -e few.vdb ] || fail "a merge of missing parts"
