@@ -1,11 +1,11 @@
-// Runs in parts: bricks, cuts, and grids that are those of the whole run, brick by brick.
+// Runs in parts: pages, cuts, and grids that are those of the whole run, page by page.
 
 #include "libvox/options/run_part.h"
 
 #include "libvox/core/error.h"
-#include "libvox/grid/bricks.h"
 #include "libvox/grid/crop.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/grid/pages.h"
 #include "libvox/grid/region.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/cut.h"
@@ -54,9 +54,9 @@ bool areSame(const Node& a, const Node& b) {
   return true;
 }
 
-/// What a brick of a tree is: a lower node, or a tile.
+/// What a page of a tree is: a lower node, or a tile.
 template <class TreeT>
-struct Bricks {
+struct Pages {
   using Upper = typename TreeT::RootNodeType::ChildNodeType;
   using Lower = typename Upper::ChildNodeType;
   std::map<Coord, const Lower*> nodes;
@@ -79,12 +79,12 @@ struct Bricks {
   }
 };
 
-/// Checks that some trees together have the bricks of another one, each once.
+/// Checks that some trees together have the pages of another one, each once.
 template <class GridT>
 void checkTogether(const openvdb::GridBase& whole, const std::vector<Conversion>& parts,
                    std::size_t grid) {
   if (!whole.isType<GridT>()) return;
-  Bricks<typename GridT::TreeType> expected, found;
+  Pages<typename GridT::TreeType> expected, found;
   expected.add(static_cast<const GridT&>(whole).tree());
   for (const Conversion& part : parts)
     found.add(static_cast<const GridT&>(*part.grids[grid]).tree());
@@ -118,17 +118,16 @@ void checkParts(const Scene& scene, const ConvertOptions& options, int count) {
   }
 }
 
-std::vector<Coord> bricksOf(const CoordBBox& voxels) {
-  std::vector<Coord> bricks;
-  for (auto at = CoordBBox(voxels.min() >> kBrickLog2, voxels.max() >> kBrickLog2).begin(); at;
-       ++at)
-    bricks.push_back(*at);
-  return bricks;
+std::vector<Coord> pagesOf(const CoordBBox& voxels) {
+  std::vector<Coord> pages;
+  for (auto at = CoordBBox(voxels.min() >> kPageLog2, voxels.max() >> kPageLog2).begin(); at; ++at)
+    pages.push_back(*at);
+  return pages;
 }
 
 }  // namespace
 
-TEST_CASE("bricks come in the order in which OpenVDB writes lower nodes", "[run-part][property]") {
+TEST_CASE("pages come in the order in which OpenVDB writes lower nodes", "[run-part][property]") {
   std::mt19937 random(3);
   openvdb::MaskTree tree;
   for (int i = 0; i < 2000; ++i) tree.setValueOn(randomCoord(random, 20000));
@@ -137,42 +136,42 @@ TEST_CASE("bricks come in the order in which OpenVDB writes lower nodes", "[run-
   std::as_const(tree).getNodes(nodes);  // depth first, as in the file
   REQUIRE(nodes.size() > 1000);
   for (std::size_t i = 1; i < nodes.size(); ++i) {
-    const Coord a = nodes[i - 1]->origin() >> kBrickLog2;
-    const Coord b = nodes[i]->origin() >> kBrickLog2;
+    const Coord a = nodes[i - 1]->origin() >> kPageLog2;
+    const Coord b = nodes[i]->origin() >> kPageLog2;
     CHECK(isBefore(a, b));
     CHECK_FALSE(isBefore(b, a));
   }
   CHECK_FALSE(isBefore({1, 2, 3}, {1, 2, 3}));
 }
 
-TEST_CASE("regions of bricks hold what brute force finds", "[run-part][property]") {
+TEST_CASE("regions of pages hold what brute force finds", "[run-part][property]") {
   std::mt19937 random(4);
   for (int round = 0; round < 200; ++round) {
-    BrickRange range{randomCoord(random, 40), randomCoord(random, 40)};
+    PageRange range{randomCoord(random, 40), randomCoord(random, 40)};
     if (isBefore(*range.end, *range.begin)) std::swap(range.begin, range.end);
     if (round % 5 == 0) range.begin.reset();
     if (round % 7 == 0) range.end.reset();
     const Region region(range);
     const Coord low = randomCoord(random, 5000);
     const CoordBBox box(low, low.offsetBy(static_cast<int>(random() % 700)));
-    const std::vector<Coord> bricks = bricksOf(box);
-    const bool meets = std::any_of(bricks.begin(), bricks.end(),
-                                   [&](const Coord& b) { return range.contains(b); });
-    CHECK(region.meetsBricks(box) == meets);
-    CHECK(region.contains(low) == range.contains(low >> kBrickLog2));
+    const std::vector<Coord> pages = pagesOf(box);
+    const bool meets =
+        std::any_of(pages.begin(), pages.end(), [&](const Coord& b) { return range.contains(b); });
+    CHECK(region.meetsPages(box) == meets);
+    CHECK(region.contains(low) == range.contains(low >> kPageLog2));
     constexpr int kMargin = 9;
     CoordBBox grown = box;
     grown.expand(kMargin);
-    CHECK(region.grown(kMargin).meetsBricks(box) == region.meetsBricks(grown));
+    CHECK(region.grown(kMargin).meetsPages(box) == region.meetsPages(grown));
   }
 }
 
-TEST_CASE("cropping to bricks keeps their nodes and cuts large tiles", "[run-part]") {
+TEST_CASE("cropping to pages keeps their nodes and cuts large tiles", "[run-part]") {
   openvdb::FloatTree tree(3.0F);
   tree.fill(CoordBBox(Coord(-4096), Coord(4095)), -1.0F, true);  // tiles of the root
   tree.setValueOn({100, 100, 100}, 7.0F);
   tree.setValueOn({5000, 0, 0}, 8.0F);
-  const BrickRange range{Coord(0, 0, 0), Coord(0, 1, 0)};  // 32 bricks along z
+  const PageRange range{Coord(0, 0, 0), Coord(0, 1, 0)};  // 32 pages along z
   openvdb::FloatTree part(tree);
   crop(part, Region(range));
   CHECK(part.activeVoxelCount() == 32ULL * 128 * 128 * 128);
@@ -183,44 +182,43 @@ TEST_CASE("cropping to bricks keeps their nodes and cuts large tiles", "[run-par
   CHECK_FALSE(part.isValueOn({-1, 0, 0}));
 }
 
-TEST_CASE("bricks are cut into ranges of about equal cost", "[run-part][property]") {
+TEST_CASE("pages are cut into ranges of about equal cost", "[run-part][property]") {
   std::mt19937 random(5);
   for (const int count : {1, 2, 3, 7, 64, 1000}) {
     std::map<Coord, std::uint64_t, bool (*)(const Coord&, const Coord&)> costs(isBefore);
     for (int i = 0; i < 300; ++i) costs[randomCoord(random, 60)] = 1 + random() % 1000;
-    BrickCosts all;
+    PageCosts all;
     double sum = 0, heaviest = 0;
-    for (const auto& [brick, cost] : costs) {
-      all.bricks.push_back(brick);
+    for (const auto& [page, cost] : costs) {
+      all.pages.push_back(page);
       all.costs.push_back(cost);
       sum += static_cast<double>(cost);
       heaviest = std::max(heaviest, static_cast<double>(cost));
     }
-    const std::vector<BrickShare> shares = cutInto(count, all);
+    const std::vector<PageShare> shares = cutInto(count, all);
     REQUIRE(shares.size() == static_cast<std::size_t>(count));
     double together = 0;
-    for (const BrickShare& share : shares) {
+    for (const PageShare& share : shares) {
       CHECK(share.cost <= 1.0 / count + heaviest / sum + 1e-12);
       together += share.cost;
     }
     CHECK(together == Approx(1));
-    for (int i = 0; i < 500; ++i) {  // also bricks without a cost are in one range
-      const Coord brick = randomCoord(random, 100);
-      CHECK(std::count_if(shares.begin(), shares.end(), [&](const BrickShare& share) {
-              return share.range.contains(brick);
-            }) == 1);
+    for (int i = 0; i < 500; ++i) {  // also pages without a cost are in one range
+      const Coord page = randomCoord(random, 100);
+      CHECK(std::count_if(shares.begin(), shares.end(),
+                          [&](const PageShare& share) { return share.range.contains(page); }) == 1);
     }
   }
 }
 
-TEST_CASE("parts have the grids of the whole run, brick by brick", "[run-part][pipeline]") {
+TEST_CASE("parts have the grids of the whole run, page by page", "[run-part][pipeline]") {
   ConvertOptions options;
   options.grids = kAllKinds;
   options.dim = 300;
   SECTION("surface") {
     checkParts(oneObject(torusGrid(8, 5)), options, 3);
   }
-  SECTION("solid, more parts than bricks") {
+  SECTION("solid, more parts than pages") {
     options.volume.fill = Fill::kSolid;
     checkParts(oneObject(cube()), options, 64);
   }
@@ -244,11 +242,11 @@ TEST_CASE("parts have the grids of the whole run, brick by brick", "[run-part][p
   }
 }
 
-TEST_CASE("large level sets are made brick by brick", "[run-part][level-set][pipeline]") {
+TEST_CASE("large level sets are made page by page", "[run-part][level-set][pipeline]") {
   ConvertOptions options;
   options.grids = {GridKind::kSurface};
   options.dim = 1100;
-  SECTION("with inner bricks") {
+  SECTION("with inner pages") {
     checkParts(oneObject(cube()), options, 5);
   }
   SECTION("a sheet") {

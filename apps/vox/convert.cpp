@@ -104,7 +104,7 @@ void printEstimate(const ConvertArguments& options, const Scene& scene, const Re
   for (std::size_t i = 0; i < made.shares.size(); ++i)
     std::cout << "part " << i + 1 << " of " << made.shares.size() << ": "
               << std::round(1000 * made.shares[i].cost) / 10 << " % of the surface, in "
-              << counted(made.shares[i].bricks, "brick") << '\n';
+              << counted(made.shares[i].pages, "block") << " of 128^3 voxels\n";
 }
 
 /// "3/16".

@@ -125,7 +125,7 @@ class BandMaker {
     if (!options_.unsignedDistance) {
       const openvdb::Index lowest = hadHoles ? 0 : 1;  // levels of the tree; 0: the leaves, too
       if (options_.isPart)
-        floodBricks(*tree, lowest);
+        floodPages(*tree, lowest);
       else
         openvdb::tools::signedFloodFillWithValues(*tree, background_, -insideBackground_, true, 1,
                                                   lowest);
@@ -143,14 +143,14 @@ class BandMaker {
   };
 
   /// The flood of signs within each lower node.
-  void floodBricks(Tree& tree, openvdb::Index lowest) const {
+  void floodPages(Tree& tree, openvdb::Index lowest) const {
     const openvdb::tools::SignedFloodFillOp<Tree> flood(background_, -insideBackground_, lowest);
-    std::vector<Lower*> bricks;
-    tree.getNodes(bricks);
-    parallelForEach(bricks.size(), 1, [&](std::size_t i) {
+    std::vector<Lower*> pages;
+    tree.getNodes(pages);
+    parallelForEach(pages.size(), 1, [&](std::size_t i) {
       if (lowest == 0)
-        for (auto leaf = bricks[i]->beginChildOn(); leaf; ++leaf) flood(*leaf);
-      flood(*bricks[i]);
+        for (auto leaf = pages[i]->beginChildOn(); leaf; ++leaf) flood(*leaf);
+      flood(*pages[i]);
     });
   }
 

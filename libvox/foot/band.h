@@ -19,7 +19,7 @@ struct BandOptions {
   double voxelSize = 1;  ///< world units
   bool unsignedDistance = false;
   double halfThickness = 0;  ///< voxels, taken from all distances: of a sheet
-  bool isPart = false;       ///< there are no cells of some bricks; so bricks without leaves get no
+  bool isPart = false;       ///< there are no cells of some pages; so pages without leaves get no
                              ///< side
 };
 

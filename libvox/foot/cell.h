@@ -95,10 +95,10 @@ struct CellStore {
   /// Whether the bins of a box of voxels are of no interest to its region.
   bool isFar(const openvdb::CoordBBox& box) const {
     constexpr int kLast = kBinSide - 1;
-    if (!region.hasBricks()) return false;
+    if (!region.hasPages()) return false;
     const openvdb::Coord low = box.min() & ~kLast;
     const openvdb::Coord high = (box.max() & ~kLast).offsetBy(kLast);
-    return !region.meetsBricks({low, high});
+    return !region.meetsPages({low, high});
   }
 
   std::uint64_t bytes() const {

@@ -168,7 +168,7 @@ float CellMaker::biasOf(unsigned sides) const {
 
 /// Whether a piece, with its tube, reaches no bin of interest.
 bool CellMaker::isFar(const LimitPiece& piece) const {
-  if (!store_.region.hasBricks()) return false;
+  if (!store_.region.hasPages()) return false;
   Vec3d low = piece.points[0][0], high = low;
   for (const auto& row : piece.points)
     for (const Vec3d& point : row) {

@@ -11,10 +11,8 @@
 namespace vox {
 namespace {
 
-constexpr int kPageLog2 = 2;  // bins along a page
-
 auto orderOf(const BinnedCell& cell) {
-  const openvdb::Coord page = cell.bin >> kPageLog2;
+  const openvdb::Coord page = cell.bin >> (kPageLog2 - kBinLog2);
   return std::make_tuple(page.x(), page.y(), page.z(), cell.bin.x(), cell.bin.y(), cell.bin.z(),
                          cell.owner, cell.kind, cell.cell);
 }
@@ -24,7 +22,7 @@ auto orderOf(const BinnedCell& cell) {
 void CellStore::bin(const Prism& prism, std::uint32_t owner, std::size_t cell, CellKind kind) {
   const openvdb::CoordBBox bins(prism.box.min() >> kBinLog2, prism.box.max() >> kBinLog2);
   const auto enter = [&](const openvdb::Coord& at) {
-    if (!region.meetsBricks(openvdb::CoordBBox::createCube(at << kBinLog2, kBinSide))) return;
+    if (!region.meetsPages(openvdb::CoordBBox::createCube(at << kBinLog2, kBinSide))) return;
     binned.push_back({at, owner, static_cast<std::uint32_t>(cell), number, kind});
   };
   if (onlyBins == nullptr) {

@@ -71,15 +71,15 @@ bool isBackground(const Node& node, const typename Node::ValueType& background) 
   return true;
 }
 
-/// Gives all leaves and bricks outside the bricks of a region the background.
+/// Gives all leaves and pages outside the pages of a region the background.
 template <class TreeT>
-void cropToBricks(TreeT& tree, const Region& region) {
+void cropToPages(TreeT& tree, const Region& region) {
   using Leaf = typename TreeT::LeafNodeType;
   using Upper = typename TreeT::RootNodeType::ChildNodeType;
   using Lower = typename Upper::ChildNodeType;
   const typename TreeT::ValueType background = tree.background();
 
-  // Tiles of the root become tiles of bricks.
+  // Tiles of the root become tiles of pages.
   std::vector<openvdb::Coord> large;
   for (auto tile = std::as_const(tree).root().cbeginValueAll(); tile; ++tile)
     large.push_back(tile.getCoord());
@@ -94,17 +94,17 @@ void cropToBricks(TreeT& tree, const Region& region) {
       const bool isTile = !upper.isChildMaskOn(i);
       if (isTile && !upper.isValueMaskOn(i) && upper.getTable()[i].getValue() == background)
         continue;
-      const openvdb::CoordBBox brick =
+      const openvdb::CoordBBox page =
           openvdb::CoordBBox::createCube(upper.offsetToGlobalCoord(i), Lower::DIM);
-      if (!region.meetsBricks(brick)) {
-        upper.addTile(Lower::LEVEL + 1, brick.min(), background, false);
+      if (!region.meetsPages(page)) {
+        upper.addTile(Lower::LEVEL + 1, page.min(), background, false);
         continue;
       }
       if (isTile) continue;
       Lower& lower = *upper.getTable()[i].getChild();
       for (openvdb::Index j = 0; j < Lower::NUM_VALUES; ++j)
         if (lower.isChildMaskOn(j) &&
-            !region.meetsBricks(lower.getTable()[j].getChild()->getNodeBoundingBox()))
+            !region.meetsPages(lower.getTable()[j].getChild()->getNodeBoundingBox()))
           lower.addTile(Leaf::LEVEL + 1, lower.offsetToGlobalCoord(j), background, false);
     }
   });
@@ -115,11 +115,11 @@ void cropToBricks(TreeT& tree, const Region& region) {
 }
 
 /// Switches off all voxels of a tree outside a region, and gives them the background. At the margin
-/// of bricks whole leaves stay.
+/// of pages whole leaves stay.
 template <class TreeT>
 void crop(TreeT& tree, const Region& region) {
   if (region.box()) cropToBox(tree, *region.box());
-  if (region.hasBricks()) cropToBricks(tree, region);
+  if (region.hasPages()) cropToPages(tree, region);
 }
 
 }  // namespace vox

@@ -41,13 +41,13 @@ bool Region::meets(const Box& part) const {
     voxels.min()[axis] = clamped(std::ceil(part.low[axis] - kHalf));
     voxels.max()[axis] = clamped(std::floor(part.high[axis] + kHalf));
   }
-  return (!box_ || box_->hasOverlap(voxels)) && meetsBricks(voxels);
+  return (!box_ || box_->hasOverlap(voxels)) && meetsPages(voxels);
 }
 
 LeafWords Region::within(const LeafWords& voxels, const Coord& origin) const {
   constexpr std::int32_t kLast = 7;
   CoordBBox leaf(origin, origin.offsetBy(kLast));
-  if (!meetsBricks(leaf)) return {};
+  if (!meetsPages(leaf)) return {};
   if (!box_ || box_->isInside(leaf)) return voxels;
   LeafWords kept{};
   if (box_->empty() || !box_->hasOverlap(leaf)) return kept;
@@ -63,7 +63,7 @@ LeafWords Region::within(const LeafWords& voxels, const Coord& origin) const {
 }
 
 Region Region::operator&(const Region& other) const {
-  Region both = bricks_ ? *this : other;
+  Region both = pages_ ? *this : other;
   if (box_ && other.box_)
     both.box_ = CoordBBox(Coord::maxComponent(box_->min(), other.box_->min()),
                           Coord::minComponent(box_->max(), other.box_->max()));
@@ -76,7 +76,7 @@ Region Region::grown(int voxels) const {
   Region more = *this;
   if (isEmpty()) return more;
   if (box_) more.box_ = CoordBBox(box_->min().offsetBy(-voxels), box_->max().offsetBy(voxels));
-  if (bricks_) more.margin_ += voxels;
+  if (pages_) more.margin_ += voxels;
   return more;
 }
 

@@ -34,7 +34,7 @@ struct ConvertOptions : PreparationOptions {
   std::optional<std::array<double, 6>> bounds;
   /// The same by voxels: the lowest voxel, then the highest. Both apply.
   std::optional<std::array<int, 6>> clip;
-  std::optional<RunPart> part;                 ///< default: all bricks
+  std::optional<RunPart> part;                 ///< default: all pages
   std::optional<std::vector<GridKind>> grids;  ///< default: density
   std::optional<PartBy> partBy;      ///< default: the first by which the input has several parts
   std::optional<Split> split;        ///< default: one grid of all densities

@@ -3,7 +3,7 @@
 namespace vox {
 
 /// One of several runs that together make the grids of one conversion. Each makes those of some
-/// bricks (grid/bricks.h).
+/// pages (grid/pages.h).
 struct RunPart {
   int number = 1;  ///< from 1
   int count = 1;

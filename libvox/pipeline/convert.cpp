@@ -79,7 +79,7 @@ openvdb::MaskGrid::Ptr cropped(const openvdb::MaskGrid& mask, const Region& regi
   return grid;
 }
 
-/// Crops a grid. A level set keeps the inner sides of nodes without active voxels. Bricks stay as
+/// Crops a grid. A level set keeps the inner sides of nodes without active voxels. Pages stay as
 /// they are in the whole.
 void cropGrid(openvdb::GridBase& grid, const Region& region) {
   if (region.isAll()) return;
@@ -91,7 +91,7 @@ void cropGrid(openvdb::GridBase& grid, const Region& region) {
       else
         openvdb::tools::pruneInactive(typed.tree());
     }
-    if (region.hasBricks()) cropToBricks(typed.tree(), region);
+    if (region.hasPages()) cropToPages(typed.tree(), region);
   };
   using Kinds = openvdb::TypeList<openvdb::MaskGrid, openvdb::FloatGrid, openvdb::Vec3SGrid,
                                   openvdb::Int32Grid>;
@@ -275,9 +275,9 @@ struct MadeGrids {
 /// meet themselves.
 Region bandOfPart(const PreparedScene& prepared) {
   constexpr std::size_t kMostOfSmall = 200;
-  std::size_t bricks = 0;
-  for (const BrickShare& share : prepared.estimate.shares) bricks += share.bricks;
-  return bricks > kMostOfSmall ? prepared.region : Region{};
+  std::size_t pages = 0;
+  for (const PageShare& share : prepared.estimate.shares) pages += share.pages;
+  return pages > kMostOfSmall ? prepared.region : Region{};
 }
 
 /// Makes grids one after the other; later ones use earlier ones.

@@ -1,4 +1,4 @@
-// Ranges of bricks for runs in parts.
+// Ranges of pages for runs in parts.
 
 #include "libvox/pipeline/cut.h"
 
@@ -20,14 +20,14 @@ struct FileOrder {
 };
 using Costs = std::map<Coord, std::uint64_t, FileOrder>;
 
-/// Adds the area of a triangle to the bricks that it meets, in pieces of half a brick.
+/// Adds the area of a triangle to the pages that it meets, in pieces of half a page.
 class TriangleCosts {
  public:
   TriangleCosts(const Region& region, Costs& costs)
       : region_(region), costs_(costs), last_(costs.end()) {}
 
   void add(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    constexpr double kLongest = kBrickSide / 2.0;
+    constexpr double kLongest = kPageSide / 2.0;
     const double ab = (b - a).squaredNorm();
     const double bc = (c - b).squaredNorm();
     const double ca = (a - c).squaredNorm();
@@ -43,8 +43,8 @@ class TriangleCosts {
     constexpr double kUnits = 1024;  // of a square voxel
     const double area = (b - a).cross(c - a).norm() / 2;
     const std::uint64_t cost = 1 + static_cast<std::uint64_t>(kUnits * area);
-    const Coord brick = voxel >> kBrickLog2;
-    if (last_ == costs_.end() || last_->first != brick) last_ = costs_.try_emplace(brick, 0).first;
+    const Coord page = voxel >> kPageLog2;
+    if (last_ == costs_.end() || last_->first != page) last_ = costs_.try_emplace(page, 0).first;
     last_->second += cost;
   }
 
@@ -63,7 +63,7 @@ class TriangleCosts {
 
 }  // namespace
 
-BrickCosts costsOf(std::span<const PreparedSurface> surfaces, const Region& region) {
+PageCosts costsOf(std::span<const PreparedSurface> surfaces, const Region& region) {
   Costs costs;
   TriangleCosts triangles(region, costs);
   for (const PreparedSurface& surface : surfaces) {
@@ -76,35 +76,35 @@ BrickCosts costsOf(std::span<const PreparedSurface> surfaces, const Region& regi
         triangles.add(p[face[0]], p[face[i]], p[face[i + 1]]);
     }
   }
-  BrickCosts sorted;
-  for (const auto& [brick, cost] : costs) {
-    sorted.bricks.push_back(brick);
+  PageCosts sorted;
+  for (const auto& [page, cost] : costs) {
+    sorted.pages.push_back(page);
     sorted.costs.push_back(cost);
   }
   return sorted;
 }
 
-std::vector<BrickShare> cutInto(int count, const BrickCosts& costs) {
+std::vector<PageShare> cutInto(int count, const PageCosts& costs) {
   double all = 0;
   for (const std::uint64_t cost : costs.costs) all += static_cast<double>(cost);
   const auto parts = static_cast<std::size_t>(count);
-  // Coord::max() comes after all bricks.
+  // Coord::max() comes after all pages.
   std::vector<Coord> begins(parts + 1, Coord::max());
-  std::vector<BrickShare> shares(parts);
+  std::vector<PageShare> shares(parts);
   double before = 0;
   std::size_t last = 0;
-  for (std::size_t i = 0; i < costs.bricks.size(); ++i) {
-    // Where its middle lies among all costs tells the part of a brick.
+  for (std::size_t i = 0; i < costs.pages.size(); ++i) {
+    // Where its middle lies among all costs tells the part of a page.
     const auto cost = static_cast<double>(costs.costs[i]);
     const auto part = static_cast<std::size_t>((before + cost / 2) / all * count);
     last = std::clamp(part, last, parts - 1);
     before += cost;
-    BrickShare& share = shares[last];
-    if (share.bricks++ == 0) begins[last] = costs.bricks[i];
+    PageShare& share = shares[last];
+    if (share.pages++ == 0) begins[last] = costs.pages[i];
     share.cost += cost / all;
   }
-  for (std::size_t i = parts; i-- > 0;)  // parts without bricks begin where the next one does
-    if (shares[i].bricks == 0) begins[i] = begins[i + 1];
+  for (std::size_t i = parts; i-- > 0;)  // parts without pages begin where the next one does
+    if (shares[i].pages == 0) begins[i] = begins[i + 1];
   for (std::size_t i = 0; i < parts; ++i) {
     if (i > 0) shares[i].range.begin = begins[i];
     if (i + 1 < parts) shares[i].range.end = begins[i + 1];

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libvox/grid/bricks.h"
+#include "libvox/grid/pages.h"
 #include "libvox/grid/region.h"
 #include "libvox/options/run_part.h"
 #include "libvox/pipeline/prepared_surface.h"
@@ -12,25 +12,25 @@
 
 namespace vox {
 
-/// Bricks that surfaces meet, in the order of files, and the area of the surfaces in each, in units
+/// Pages that surfaces meet, in the order of files, and the area of the surfaces in each, in units
 /// that add up without rounding.
-struct BrickCosts {
-  std::vector<openvdb::Coord> bricks;
+struct PageCosts {
+  std::vector<openvdb::Coord> pages;
   std::vector<std::uint64_t> costs;
 };
 
-/// The costs of the bricks that hold voxels of a region. From few polygons near the surfaces
+/// The costs of the pages that hold voxels of a region. From few polygons near the surfaces
 /// (few_polygons.h); so the same on every machine, for any number of threads.
-BrickCosts costsOf(std::span<const PreparedSurface> surfaces, const Region& region);
+PageCosts costsOf(std::span<const PreparedSurface> surfaces, const Region& region);
 
-/// A part of the bricks.
-struct BrickShare {
-  BrickRange range;
-  std::size_t bricks = 0;  ///< that surfaces meet
-  double cost = 0;         ///< part of the cost of all
+/// A part of the pages.
+struct PageShare {
+  PageRange range;
+  std::size_t pages = 0;  ///< that surfaces meet
+  double cost = 0;        ///< part of the cost of all
 };
 
-/// Cuts all bricks there are into contiguous ranges of about equal cost.
-std::vector<BrickShare> cutInto(int count, const BrickCosts& costs);
+/// Cuts all pages there are into contiguous ranges of about equal cost.
+std::vector<PageShare> cutInto(int count, const PageCosts& costs);
 
 }  // namespace vox

@@ -8,16 +8,16 @@
 #include "libvox/foot/band.h"
 #include "libvox/foot/exposed_band.h"
 #include "libvox/foot/wide_band.h"
-#include "libvox/grid/bricks.h"
 #include "libvox/grid/crop.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/grid/pages.h"
 #include "libvox/grid/transform.h"
-#include "libvox/pipeline/brick_signs.h"
 #include "libvox/pipeline/components.h"
 #include "libvox/pipeline/exposed_pieces.h"
 #include "libvox/pipeline/foot_cells.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
+#include "libvox/pipeline/page_signs.h"
 #include "libvox/pipeline/sheets.h"
 #include "libvox/volume/fill.h"
 #include "libvox/volume/winding.h"
@@ -104,7 +104,7 @@ class LevelSetMaker {
 
   openvdb::FloatTree::Ptr make() {
     if (!open_.empty()) findEnclosing();
-    isLocal_ = region_.hasBricks() && (closed_.empty() || (open_.empty() && !solidsMayMeet())) &&
+    isLocal_ = region_.hasPages() && (closed_.empty() || (open_.empty() && !solidsMayMeet())) &&
                !isWide({settings_.band.in, settings_.band.out});
     openvdb::FloatTree::Ptr tree;
     if (!closed_.empty()) tree = bandOfSolids();
@@ -264,8 +264,8 @@ class LevelSetMaker {
     if (isLocal_) {
       if (!band.jumps.empty()) refuseMeeting(band.jumps);
       crop(*band.tree, region_);
-      setInnerBricks(*band.tree, region_, boxOfSolids(), -backgroundOf(narrow.in, voxelSize_),
-                     [&](std::span<const openvdb::Coord> voxels) { return areInside(voxels); });
+      setInnerPages(*band.tree, region_, boxOfSolids(), -backgroundOf(narrow.in, voxelSize_),
+                    [&](std::span<const openvdb::Coord> voxels) { return areInside(voxels); });
       return band.tree;
     }
     if (!band.jumps.empty()) {
@@ -303,7 +303,7 @@ class LevelSetMaker {
 
   /// Whether voxels are inside some solid. They are many voxels away from the surface.
   std::vector<char> areInside(std::span<const openvdb::Coord> voxels) const {
-    constexpr double kTolerance = kBrickSide / 8.0;
+    constexpr double kTolerance = kPageSide / 8.0;
     std::vector<char> inside(voxels.size(), 0);
     forEachSurface(closed_, [&](std::span<const Part> parts) {
       const PolygonMesh polygons = trianglesNear(surfaces_[parts[0].surface], facesOf(parts),
@@ -415,7 +415,7 @@ class LevelSetMaker {
   std::vector<std::vector<MeshComponent>> components_;
   std::vector<Part> closed_, open_;
   bool endsAtOthers_ = false;  // an open part is one of closed_
-  bool isLocal_ = false;       // only the bricks of the region are made
+  bool isLocal_ = false;       // only the pages of the region are made
   std::vector<std::string>& warnings_;
   Solid solid_;
   Inside inside_;
@@ -444,7 +444,7 @@ openvdb::FloatGrid::Ptr surfaceGrid(std::span<const PreparedSurface> surfaces,
   grid->setTransform(transform.copy());
   const bool isUnsigned = maker.hasSheets() && settings.openMesh == OpenMesh::kUnsigned;
   grid->setGridClass(isUnsigned ? openvdb::GRID_UNKNOWN : openvdb::GRID_LEVEL_SET);
-  if (!maker.hasSheets() && !part.hasBricks() && isThin(grid->tree(), voxelSize))
+  if (!maker.hasSheets() && !part.hasPages() && isThin(grid->tree(), voxelSize))
     warnings.push_back(
         "the objects are thinner than a voxel everywhere: the level set has hardly any inside; use "
         "smaller voxels");

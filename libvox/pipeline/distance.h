@@ -29,7 +29,7 @@ using MarkVoxels = std::function<const openvdb::MaskTree&()>;
 /// Components that enclose nothing become sheets one voxel thick, or with OpenMesh::kUnsigned
 /// distances without sign.
 ///
-/// @param part      if it has bricks: only they are made, from the surface near them, if this is
+/// @param part      if it has pages: only they are made, from the surface near them, if this is
 ///   possible; else all are
 /// @param warnings  gets a line if the surface encloses only places thinner than a voxel
 /// @throws MeshError   there is a part, and the surface meets itself there

@@ -37,7 +37,7 @@ struct Estimate {
   double bytes = 0;       ///< of all grids at their peak, and of the voxels of the surfaces
   double fixedBytes = 0;  ///< the part of `bytes` that larger voxels do not reduce
   double wholeBytes = 0;  ///< the part of `bytes` that each part of a run needs
-  std::vector<BrickShare> shares = {};  ///< of all parts, if it is a part of a run
+  std::vector<PageShare> shares = {};  ///< of all parts, if it is a part of a run
   double fileBytes = 0;
   bool certain = true;  ///< false: a surface may shrink from its boundary to a far smaller one
   std::string refusal;  ///< why the conversion would be refused; empty if it would not
@@ -50,8 +50,8 @@ inline constexpr double kEstimateFactor = 1.5;
 /// Estimates grids from few polygons near each surface: from their area, by direction, and from the
 /// large nodes that they meet. Costs little compared with the conversion. Sets neither voxel size
 /// nor levels.
-/// @param region  the voxels asked for; of bricks it tells nothing
-/// @param share   part of the cost that its bricks have
+/// @param region  the voxels asked for; of pages it tells nothing
+/// @param share   part of the cost that its pages have
 Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
                        const VolumeSettings& volume, const Region& region = {}, double share = 1);
 

@@ -34,7 +34,7 @@ class FootCells {
   FootCells(const CellOptions& options, std::vector<openvdb::Coord> onlyBins,
             const MemoryBudget& budget)
       : options_(options), budget_(budget), onlyBins_(std::move(onlyBins)) {}
-  /// @param region  bins that its bricks do not meet are of no interest
+  /// @param region  bins that its pages do not meet are of no interest
   FootCells(const CellOptions& options, const Region& region, const MemoryBudget& budget)
       : options_(options), budget_(budget), region_(region) {}
   FootCells(const FootCells&) = delete;

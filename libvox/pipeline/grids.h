@@ -42,7 +42,7 @@ struct GridSources {
   std::shared_ptr<openvdb::FloatGrid> solid = nullptr;
   std::size_t partCount = 0;
   Region region = {};      ///< other voxels need no values, but grids may have some
-  Region bandOfPart = {};  ///< if it has bricks: of a level set only they are made, if possible
+  Region bandOfPart = {};  ///< if it has pages: of a level set only they are made, if possible
 };
 
 /// The output grid of a kind.

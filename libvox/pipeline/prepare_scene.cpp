@@ -121,13 +121,13 @@ Region regionOf(const Request& request, const GridTransform& transform) {
   return region;
 }
 
-const BrickShare& shareOf(const RunPart& part, const std::vector<BrickShare>& shares) {
+const PageShare& shareOf(const RunPart& part, const std::vector<PageShare>& shares) {
   return shares[static_cast<std::size_t>(part.number - 1)];
 }
 
 /// Cuts the region of a scene into the parts of a run, and takes one of them.
-std::vector<BrickShare> takePart(const RunPart& part, PreparedScene& prepared) {
-  std::vector<BrickShare> shares = cutInto(part.count, costsOf(prepared.surfaces, prepared.region));
+std::vector<PageShare> takePart(const RunPart& part, PreparedScene& prepared) {
+  std::vector<PageShare> shares = cutInto(part.count, costsOf(prepared.surfaces, prepared.region));
   prepared.region = prepared.region & Region(shareOf(part, shares).range);
   return shares;
 }
@@ -155,7 +155,7 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
   report.voxelSize = transform.voxelSize;
   prepared.areas = areasOf(scene, transform, progress);
   plan(scene, request, prepared.areas, progress);
-  std::vector<BrickShare> shares;
+  std::vector<PageShare> shares;
   {
     const StageTimer timer(report.prepareSeconds);
     ImageReader images(budget);

@@ -81,7 +81,7 @@ struct Request {
   Turn turn = Turn::kNoTurn;
   std::optional<Box> bounds;               ///< as in ConvertOptions
   std::optional<std::array<int, 6>> clip;  ///< as in ConvertOptions
-  std::optional<RunPart> part;             ///< only its bricks
+  std::optional<RunPart> part;             ///< only its pages
   std::vector<GridKind> grids;             ///< in the order asked for
   std::optional<PartBy> partBy;            ///< what parts are; nothing: defaultPartBy()
   bool splits = false;                     ///< the grid density becomes a grid for each part

@@ -12,12 +12,12 @@ namespace vox {
 /// Tells of some voxels whether they are inside, 1 or 0 each.
 using AreInside = std::function<std::vector<char>(std::span<const openvdb::Coord>)>;
 
-/// Gives the bricks of a region that have no leaf of a band, but lie inside, the inner background.
-/// (For bands of some bricks, because OpenVDB's flood needs all.)
+/// Gives the pages of a region that have no leaf of a band, but lie inside, the inner background.
+/// (For bands of some pages, because OpenVDB's flood needs all.)
 /// @param box        voxels: others are outside
 /// @param inside     background, world units, negative
-/// @param areInside  asked for one voxel of each group of such bricks that touch
-void setInnerBricks(openvdb::FloatTree& band, const Region& region, const openvdb::CoordBBox& box,
-                    float inside, const AreInside& areInside);
+/// @param areInside  asked for one voxel of each group of such pages that touch
+void setInnerPages(openvdb::FloatTree& band, const Region& region, const openvdb::CoordBBox& box,
+                   float inside, const AreInside& areInside);
 
 }  // namespace vox
