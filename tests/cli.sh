@@ -65,7 +65,7 @@ end_header
 PLY
 { cat header.txt; printf '\0\0\0\0'; } >truncated.ply
 yes 'neither a mesh nor a scene' | head -c 300 | tee garbage.stl >garbage.om
-for command in convert subdivide; do
+for command in convert merge subdivide; do
   out=out.vdb
   more=()
   [ $command = subdivide ] && out=out.obj && more=(--levels 1)
@@ -654,6 +654,38 @@ expect 2 'must end in .vdb' diff torus.vdb torus41.vdb -o out.png
 expect 2 'tolerance' diff torus.vdb torus.vdb --tolerance -1
 expect 3 'nowhere.vdb: no such file' diff torus.vdb nowhere.vdb
 expect 3 "neither file has a grid 'fog'" diff torus.vdb torus.vdb --grids fog
+
+# Merging: other files, and the parts of a conversion.
+"$vox" convert "$scenes/torus.toml" -o fog.vdb --dim 40 -q
+expect 0 'two.vdb: 2 grids with [0-9]+ active voxels from 2 files$' merge torus.vdb fog.vdb -o two.vdb
+expect 0 '' diff torus.vdb two.vdb --no-metadata
+expect 5 'two.vdb: exists' merge torus.vdb -o two.vdb
+expect 0 '' merge torus.vdb fog.vdb -o two.vdb --force --quiet
+[ -s stderr ] && fail "merge --quiet is not quiet"
+"$vox" merge torus.vdb fog.vdb -o - 2>/dev/null | cmp -s - two.vdb || fail "merge: stdout differs"
+expect 3 'torus41.vdb: the grid mask is also in torus.vdb and has another transform' merge torus.vdb torus41.vdb -o out.vdb
+expect 3 'nowhere.vdb: no such file' merge torus.vdb nowhere.vdb -o out.vdb
+expect 2 'is the input torus.vdb' merge torus.vdb fog.vdb -o torus.vdb --force
+expect 2 'must end in .vdb' merge torus.vdb -o out.png
+expect 2 'output' merge torus.vdb
+expect 2 'FILE' merge -o out.vdb
+if grep -q -- '--part ' < <("$vox" convert --help); then
+  "$vox" convert "$scenes/torus.toml" -o whole.vdb --dim 300 --grids density,mask -q
+  for part in 1 2 3; do
+    "$vox" convert "$scenes/torus.toml" -o "p$part.vdb" --dim 300 --grids density,mask --part $part/3 -q
+  done
+  "$vox" convert "$scenes/torus.toml" -o stale.vdb --dim 301 --grids density,mask --part 2/3 -q
+  expect 0 'merged.vdb: 2 grids' merge p2.vdb p1.vdb p3.vdb -o merged.vdb
+  cmp -s merged.vdb whole.vdb || fail "merge: not the file of one run"
+  expect 3 'p1.vdb: is one of 3 parts, of which parts 2-3 are missing' merge p1.vdb -o out.vdb
+  expect 3 'p2.vdb: is part 2 of 3, and so is p2.vdb' merge p2.vdb p1.vdb p2.vdb p3.vdb -o out.vdb
+  expect 3 'stale.vdb: is of another conversion than p1.vdb: it has other options' merge p1.vdb stale.vdb p3.vdb -o out.vdb
+  expect 3 'whole.vdb: is not a part' merge p1.vdb p2.vdb p3.vdb whole.vdb -o out.vdb
+  head -c 5000 p2.vdb >cut.vdb
+  expect 3 'cut.vdb: is damaged' merge p1.vdb cut.vdb p3.vdb -o out.vdb
+  "$vox" merge p1.vdb p3.vdb -o partial.vdb --partial 2>stderr || fail "merge --partial: $(cat stderr)"
+  grep -q 'warning: without part 2 of 3' stderr || fail "merge --partial: $(cat stderr)"
+fi
 
 # Checks: 0 no faults, 1 some. The options are those of the file.
 expect 0 '' check torus.vdb

@@ -84,6 +84,7 @@ Action addConvert(CLI::App& app);
 Action addSubdivide(CLI::App& app);
 Action addInfo(CLI::App& app);
 Action addDiff(CLI::App& app);
+Action addMerge(CLI::App& app);
 Action addCheck(CLI::App& app);
 Action addRender(CLI::App& app);
 

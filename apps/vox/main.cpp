@@ -94,8 +94,9 @@ int run(int argc, char** argv) {
       "2 usage, 3 bad input, 4 cannot be done within limits, 5 output cannot be written,\n"
       "70 internal error, 130 interrupted.");
   const std::vector<std::pair<const char*, Action>> actions = {
-      {"convert", addConvert(app)}, {"subdivide", addSubdivide(app)}, {"info", addInfo(app)},
-      {"diff", addDiff(app)},       {"check", addCheck(app)},         {"render", addRender(app)}};
+      {"convert", addConvert(app)}, {"merge", addMerge(app)}, {"subdivide", addSubdivide(app)},
+      {"info", addInfo(app)},       {"diff", addDiff(app)},   {"check", addCheck(app)},
+      {"render", addRender(app)}};
 
   const auto print = [&app](const std::string& flag, std::string (*text)(const CLI::App&)) {
     app.add_flag_callback(flag, [&app, text] { throw CLI::CallForVersion(text(app), 0); })

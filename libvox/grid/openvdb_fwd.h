@@ -17,6 +17,10 @@ class ValueMask;
 template <typename TreeType>
 class Grid;
 
+namespace io {
+class GridDescriptor;
+}
+
 namespace math {
 class Coord;
 class CoordBBox;

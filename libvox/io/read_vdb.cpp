@@ -31,16 +31,6 @@ void requireVdb(const std::filesystem::path& file) {
     throw InputError(file.string() + ": is not an OpenVDB file");
 }
 
-/// Whether libvox wrote the file and the content still has the hash that the file states.
-/// @throws InputError  libvox wrote it, but the hash is wrong
-bool isTrusted(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const VdbContent content = vdbContent(stream);
-  if (content == VdbContent::kDamaged)
-    throw InputError(file.string() + ": is damaged: its content does not match its hash");
-  return content == VdbContent::kIntact;
-}
-
 using Visit = std::function<void(const openvdb::GridBase::Ptr&)>;
 
 /// Reads a file; OpenVDB loads the values of leaves when they are first used. It trusts the file,
@@ -63,12 +53,11 @@ openvdb::MetaMap readWhole(const std::filesystem::path& file, const Visit& visit
 }
 
 openvdb::MetaMap read(const std::filesystem::path& file, const Visit& visit) {
-  requireInputFile(file);
-  requireVdb(file);
+  const bool trusted = isSoundOwnVdb(file);
   openvdb::initialize();
   openvdb::logging::setLevel(openvdb::logging::Level::Fatal);
   constexpr std::uintmax_t kMostWhole = std::uintmax_t{256} << 20U;
-  const bool onDemand = isTrusted(file) || std::filesystem::file_size(file) > kMostWhole;
+  const bool onDemand = trusted || std::filesystem::file_size(file) > kMostWhole;
   try {
     return onDemand ? readOnDemand(file, visit) : readWhole(file, visit);
   } catch (const Error&) {
@@ -98,6 +87,16 @@ class Namer {
 };
 
 }  // namespace
+
+bool isSoundOwnVdb(const std::filesystem::path& file) {
+  requireInputFile(file);
+  requireVdb(file);
+  std::ifstream stream(file, std::ios::binary);
+  const VdbContent content = vdbContent(stream);
+  if (content == VdbContent::kDamaged)
+    throw InputError(file.string() + ": is damaged: its content does not match its hash");
+  return content == VdbContent::kIntact;
+}
 
 VdbFile readVdb(const std::filesystem::path& file) {
   VdbFile all;

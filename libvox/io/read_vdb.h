@@ -28,6 +28,10 @@ struct VdbFile {
 ///   damaged
 VdbFile readVdb(const std::filesystem::path& file);
 
+/// Whether libvox wrote a file, and it is as it was written. Reads the whole file if so.
+/// @throws InputError  the file is missing or no OpenVDB file, or libvox wrote it and it is damaged
+bool isSoundOwnVdb(const std::filesystem::path& file);
+
 /// Calls visit for one grid after the other. If values are loaded on demand (readVdb), only one
 /// grid is in memory at a time.
 /// @throws InputError  as readVdb

@@ -13,7 +13,7 @@ namespace vox {
 struct TreeStatistics {
   openvdb::CoordBBox box;  ///< of the active voxels and tiles
   openvdb::Index64 activeVoxels = 0;
-  openvdb::Index64 bytes = 0;  ///< of memory
+  openvdb::Index64 bytes = 0;  ///< of memory, with all values loaded
 
   void add(const TreeStatistics& other) {
     box.expand(other.box);
@@ -27,7 +27,7 @@ void addLeaf(const Leaf& leaf, TreeStatistics& to) {
   const LeafWords voxels = activeWords(leaf);
   const std::uint64_t count = countOf(voxels);
   to.activeVoxels += count;
-  to.bytes += leaf.memUsage();
+  to.bytes += leaf.memUsageIfLoaded();
   if (count == 0 || to.box.isInside(leaf.getNodeBoundingBox())) return;
   const LeafBox box = boxOf(voxels);
   to.box.expand({leaf.origin().offsetBy(box.low[0], box.low[1], box.low[2]),

@@ -131,6 +131,10 @@ void writeVdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>& 
   } catch (const openvdb::Exception& error) {
     throw IoError(std::string("OpenVDB cannot write the grids: ") + error.what());
   }
+  nameByContent(stream);
+}
+
+void nameByContent(std::iostream& stream) {
   if (stream.flush()) replaceUuid(stream);
   if (!stream.flush()) throw IoError("the output cannot be written; is the disk full?");
 }

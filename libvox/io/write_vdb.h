@@ -20,6 +20,11 @@ namespace vox {
 void writeVdb(std::iostream& stream, const std::vector<std::shared_ptr<openvdb::GridBase>>& grids,
               const openvdb::MetaMap& fileMetadata, std::optional<Compression> compression = {});
 
+/// The last step of writeVdb, for whoever writes the rest of a file in another way: replaces the
+/// random UUID by the hash, and flushes.
+/// @throws IoError  the stream fails
+void nameByContent(std::iostream& stream);
+
 /// Checks that the OpenVDB library has a compression.
 /// @throws UsageError  it does not
 void requireCompression(Compression compression);
