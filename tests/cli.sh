@@ -65,7 +65,7 @@ end_header
 PLY
 { cat header.txt; printf '\0\0\0\0'; } >truncated.ply
 yes 'neither a mesh nor a scene' | head -c 300 | tee garbage.stl >garbage.om
-for command in convert merge subdivide; do
+for command in convert subdivide; do
   out=out.vdb
   more=()
   [ $command = subdivide ] && out=out.obj && more=(--levels 1)
@@ -176,7 +176,7 @@ cmp -s a.png b.png || fail "render: the picture of a scene is not that of its .v
 # What works.
 expect 0 '' --help
 expect 0 '' --version
-for command in convert subdivide info diff check render; do
+for command in convert merge subdivide info diff check render; do
   expect 0 '' $command --help
 done
 expect 0 'active voxels' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask
