@@ -678,7 +678,7 @@ if grep -q -- '--part ' < <("$vox" convert --help); then
   expect 0 'merged.vdb: 2 grids' merge p2.vdb p1.vdb p3.vdb -o merged.vdb
   cmp -s merged.vdb whole.vdb || fail "merge: not the file of one run"
   expect 3 'p1.vdb: is one of 3 parts, of which parts 2-3 are missing' merge p1.vdb -o out.vdb
-  expect 3 'p2.vdb: is part 2 of 3, and so is p2.vdb' merge p2.vdb p1.vdb p2.vdb p3.vdb -o out.vdb
+  expect 3 'p2.vdb: is part 2 of 3, which is in p2.vdb, too' merge p2.vdb p1.vdb p2.vdb p3.vdb -o out.vdb
   expect 3 'stale.vdb: is of another conversion than p1.vdb: it has other options' merge p1.vdb stale.vdb p3.vdb -o out.vdb
   expect 3 'whole.vdb: is not a part' merge p1.vdb p2.vdb p3.vdb whole.vdb -o out.vdb
   head -c 5000 p2.vdb >cut.vdb

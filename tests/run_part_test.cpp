@@ -7,17 +7,21 @@
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/pages.h"
 #include "libvox/grid/region.h"
+#include "libvox/io/merge_vdb.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/cut.h"
 #include "tests/conversion.h"
 #include "tests/scenes.h"
 #include "tests/shapes.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <random>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -240,6 +244,34 @@ TEST_CASE("parts have the grids of the whole run, page by page", "[run-part][pip
     options.bounds = {-0.8, -0.8, -0.3, 0.9, 0.5, 0.8};
     checkParts(oneObject(cube()), options, 3);
   }
+}
+
+TEST_CASE("merged parts have the bytes of the whole run, also if some are made in halves",
+          "[run-part][merge]") {
+  ConvertOptions options;
+  options.grids = kAllKinds;
+  options.dim = 400;
+  options.volume.fill = GENERATE(Fill::kSurface, Fill::kSolid);
+  const Scene scene = oneObject(torusGrid(8, 5));
+  const TemporaryFolder folder;
+  const auto write = [&](int number, int count) {
+    return folder.write(std::to_string(number) + "_" + std::to_string(count) + ".vdb",
+                        bytesOf(partOf(scene, options, number, count)));
+  };
+  const std::string whole = bytesOf(convert(scene, resolve(scene, options)));
+  const auto merged = [](const std::vector<std::filesystem::path>& files) {
+    std::stringstream stream(std::ios::in | std::ios::out | std::ios::binary);
+    mergeVdb(stream, files);
+    return stream.str();
+  };
+  CHECK((merged({write(3, 3), write(1, 3), write(2, 3)}) == whole));
+  CHECK((merged({write(1, 4), write(5, 16), write(6, 16), write(4, 8), write(2, 2)}) == whole));
+  CHECK_THROWS_WITH(
+      merged({write(1, 4), write(2, 3)}),
+      Catch::EndsWith("1_4.vdb: is part 1 of 4, which does not fit to parts of 3") ||
+          Catch::EndsWith("2_3.vdb: is part 2 of 3, which does not fit to parts of 4"));
+  CHECK_THROWS_WITH(merged({write(1, 4), write(5, 16), write(2, 2)}),
+                    Catch::Contains("parts 6-8 of 16"));
 }
 
 TEST_CASE("large level sets are made page by page", "[run-part][level-set][pipeline]") {

@@ -5,10 +5,12 @@
 #include "libvox/core/error.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/options/option_text.h"
+#include "libvox/options/run_part.h"
 
 #include <openvdb/io/GridDescriptor.h>
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -18,8 +20,6 @@
 namespace vox {
 namespace {
 
-constexpr const char* kPartNumberMetadata = "vox_part";
-constexpr const char* kPartCountMetadata = "vox_parts";
 constexpr const char* kLevelsMetadata = "vox_levels";
 constexpr const char* kVoxelsMetadata = "vox_active_voxels";
 
@@ -57,7 +57,6 @@ std::vector<Trait> traitsOf(const VdbIndex& file) {
   return {{"another version of vox", textOf(first, "vox_version")},
           {"another input", textOf(first, "vox_input") + '\n' + textOf(first, "vox_input_hash")},
           {"other options", textOf(first, kOptionsMetadata)},
-          {"another number of parts", textOf(first, kPartCountMetadata)},
           {"other grids", names},
           {"other types of grids", types},
           {"another transform", transforms},
@@ -85,7 +84,7 @@ void requireSameTraits(const std::vector<VdbIndex>& files) {
 
 void requireSameNumbers(const VdbIndex& file) {
   for (const VdbIndexGrid& grid : file.grids)
-    for (const char* key : {kPartNumberMetadata, kPartCountMetadata})
+    for (const char* key : {kRunPartMetadata, kRunPartsMetadata})
       if (textOf(*grid.head, key) != textOf(*file.grids.front().head, key))
         throw InputError(file.file.string() + ": its grids are not of one part");
 }
@@ -96,7 +95,7 @@ bool isStatistic(const std::string& key) {
 }
 
 bool isOfPart(const std::string& key) {
-  return key == kPartNumberMetadata || key == kPartCountMetadata;
+  return key == kRunPartMetadata || key == kRunPartsMetadata;
 }
 
 /// Adds one value to the metadata of the whole.
@@ -122,33 +121,43 @@ bool addMetadata(const std::string& key, const openvdb::Metadata& value, openvdb
 bool isPartFile(const VdbIndex& file) {
   return !file.grids.empty() &&
          std::all_of(file.grids.begin(), file.grids.end(), [](const VdbIndexGrid& grid) {
-           return numberIn(*grid.head, kPartNumberMetadata) &&
-                  numberIn(*grid.head, kPartCountMetadata);
+           return numberIn(*grid.head, kRunPartMetadata) && numberIn(*grid.head, kRunPartsMetadata);
          });
 }
 
 PartFiles orderedParts(std::vector<VdbIndex> files) {
   requireSameTraits(files);
   PartFiles set;
-  set.count = *numberIn(*files.front().grids.front().head, kPartCountMetadata);
-  std::map<int, VdbIndex*> byNumber;
+  for (const VdbIndex& file : files)
+    set.count = std::max(set.count, *numberIn(*file.grids.front().head, kRunPartsMetadata));
+  std::map<int, VdbIndex*> bySlot;  // a slot is as wide as the smallest parts
   for (VdbIndex& file : files) {
     requireSameNumbers(file);
-    const int number = *numberIn(*file.grids.front().head, kPartNumberMetadata);
-    const std::string text = "part " + std::to_string(number) + " of " + std::to_string(set.count);
-    if (number < 1 || number > set.count)
+    const int number = *numberIn(*file.grids.front().head, kRunPartMetadata);
+    const int count = *numberIn(*file.grids.front().head, kRunPartsMetadata);
+    const std::string text = "part " + std::to_string(number) + " of " + std::to_string(count);
+    if (number < 1 || number > count || count > kMostRunParts)
       throw InputError(file.file.string() + ": is " + text + ", which cannot be");
-    const auto [other, isNew] = byNumber.emplace(number, &file);
-    if (!isNew)
-      throw InputError(file.file.string() + ": is " + text + ", and so is " +
-                       other->second->file.string());
+    const int width = set.count / count;
+    if (set.count % count != 0 || !std::has_single_bit(static_cast<unsigned>(width)))
+      throw InputError(file.file.string() + ": is " + text + ", which does not fit to parts of " +
+                       std::to_string(set.count));
+    for (int slot = (number - 1) * width + 1; slot <= number * width; ++slot) {
+      const auto [other, isNew] = bySlot.emplace(slot, &file);
+      if (!isNew)
+        throw InputError(file.file.string() + ": is " + text + ", which is in " +
+                         other->second->file.string() + ", too");
+    }
   }
-  for (int number = 1; number <= set.count; ++number) {
-    const auto part = byNumber.find(number);
-    if (part == byNumber.end())
-      set.missing.push_back(number);
-    else
+  const VdbIndex* last = nullptr;
+  for (int slot = 1; slot <= set.count; ++slot) {
+    const auto part = bySlot.find(slot);
+    if (part == bySlot.end()) {
+      set.missing.push_back(slot);
+    } else if (part->second != last) {
+      last = part->second;
       set.parts.push_back(std::move(*part->second));
+    }
   }
   return set;
 }

@@ -14,12 +14,12 @@ bool isPartFile(const VdbIndex& file);
 struct PartFiles {
   std::vector<VdbIndex> parts;  ///< in the order of their numbers
   std::vector<int> missing;     ///< numbers
-  int count = 0;                ///< of parts in all
+  int count = 0;                ///< of parts in all, if all are as small as the smallest
 };
 
 /// Orders files for which isPartFile is true, and checks that they belong together: the same input,
-/// options, version, number of parts and grids, and no part twice. If some files do not fit, the
-/// error names one of the smaller group.
+/// options, version and grids, and no part twice. Part I of N stands for parts 2I - 1 and 2I of 2N,
+/// and so on. If some files do not fit, the error names one of the smaller group.
 /// @param files  not empty
 /// @throws InputError  they do not; the message names a file
 PartFiles orderedParts(std::vector<VdbIndex> files);
