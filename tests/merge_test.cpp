@@ -528,7 +528,8 @@ TEST_CASE("metadata that differ between parts are refused", "[merge][error]") {
         "part4.vdb: has another value of the metadata vox_gain than the parts before it");
 }
 
-TEST_CASE("parts of one grid with packed and plain values are refused", "[merge][error]") {
+TEST_CASE("parts of one grid with packed and plain values, or two backgrounds, are refused",
+          "[merge][error]") {
   openvdb::initialize();
   auto density = gridNamed<openvdb::FloatGrid>("density", 0);
   density->setGridClass(openvdb::GRID_FOG_VOLUME);  // never zipped, but the file says so
@@ -540,6 +541,11 @@ TEST_CASE("parts of one grid with packed and plain values are refused", "[merge]
   CHECK(parts.errorOf({folder.write("a.vdb", bytesOfFile(halves[0], Compression::kZip)),
                        folder.write("b.vdb", bytesOfFile(halves[1], Compression::kPlain))}) ==
         "b.vdb: has another compression than the parts before it");
+  for (const auto& grid : halves[1])
+    openvdb::gridPtrCast<openvdb::FloatGrid>(grid)->tree().root().setBackground(2, true);
+  CHECK(parts.errorOf({folder.write("a.vdb", bytesOfFile(halves[0], Compression::kZip)),
+                       folder.write("b.vdb", bytesOfFile(halves[1], Compression::kZip))}) ==
+        "b.vdb: has another background than the parts before it");
 }
 
 TEST_CASE("too little memory for the nodes is an error", "[merge][error]") {

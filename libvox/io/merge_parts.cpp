@@ -199,10 +199,14 @@ class GridParts {
       auto& tree = static_cast<GridT&>(*read).tree();
       requireNewBricks(tree, part);
       addLeavesOf(part, tree.leafCount());
-      if (whole)
-        moveNodes(tree, static_cast<GridT&>(*whole).tree());
-      else
+      if (!whole) {
         whole = read;
+        continue;
+      }
+      auto& all = static_cast<GridT&>(*whole).tree();
+      if (tree.background() != all.background())
+        throw InputError(fileOf(part) + ": has another background than the parts before it");
+      moveNodes(tree, all);
     }
     whole->clearMetadata();
     const openvdb::MetaMap all = metadata();
