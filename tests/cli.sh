@@ -669,23 +669,28 @@ expect 2 'is the input torus.vdb' merge torus.vdb fog.vdb -o torus.vdb --force
 expect 2 'must end in .vdb' merge torus.vdb -o out.png
 expect 2 'output' merge torus.vdb
 expect 2 'FILE' merge -o out.vdb
-if grep -q -- '--part ' < <("$vox" convert --help); then
-  "$vox" convert "$scenes/torus.toml" -o whole.vdb --dim 300 --grids density,mask -q
-  for part in 1 2 3; do
-    "$vox" convert "$scenes/torus.toml" -o "p$part.vdb" --dim 300 --grids density,mask --part $part/3 -q
-  done
-  "$vox" convert "$scenes/torus.toml" -o stale.vdb --dim 301 --grids density,mask --part 2/3 -q
-  expect 0 'merged.vdb: 2 grids' merge p2.vdb p1.vdb p3.vdb -o merged.vdb
-  cmp -s merged.vdb whole.vdb || fail "merge: not the file of one run"
-  expect 3 'p1.vdb: is one of 3 parts, of which parts 2-3 are missing' merge p1.vdb -o out.vdb
-  expect 3 'p2.vdb: is part 2 of 3, which is in p2.vdb, too' merge p2.vdb p1.vdb p2.vdb p3.vdb -o out.vdb
-  expect 3 'stale.vdb: is of another conversion than p1.vdb: it has other options' merge p1.vdb stale.vdb p3.vdb -o out.vdb
-  expect 3 'whole.vdb: is not a part' merge p1.vdb p2.vdb p3.vdb whole.vdb -o out.vdb
-  head -c 5000 p2.vdb >cut.vdb
-  expect 3 'cut.vdb: is damaged' merge p1.vdb cut.vdb p3.vdb -o out.vdb
-  "$vox" merge p1.vdb p3.vdb -o partial.vdb --partial 2>stderr || fail "merge --partial: $(cat stderr)"
-  grep -q 'warning: without part 2 of 3' stderr || fail "merge --partial: $(cat stderr)"
-fi
+"$vox" convert "$scenes/torus.toml" -o whole.vdb --dim 300 --grids density,mask -q
+for part in 1 2 3; do
+  "$vox" convert "$scenes/torus.toml" -o "p$part.vdb" --dim 300 --grids density,mask --part $part/3 -q
+done
+"$vox" convert "$scenes/torus.toml" -o stale.vdb --dim 301 --grids density,mask --part 2/3 -q
+expect 0 'merged.vdb: 2 grids' merge p2.vdb p1.vdb p3.vdb -o merged.vdb
+cmp -s merged.vdb whole.vdb || fail "merge: not the file of one run"
+expect 3 'p1.vdb: is one of 3 parts, of which parts 2-3 are missing' merge p1.vdb -o out.vdb
+expect 3 'p2.vdb: is part 2 of 3, which is in p2.vdb, too' merge p2.vdb p1.vdb p2.vdb p3.vdb -o out.vdb
+expect 3 'stale.vdb: is of another conversion than p1.vdb: it has other options' merge p1.vdb stale.vdb p3.vdb -o out.vdb
+expect 3 'whole.vdb: is not a part' merge p1.vdb p2.vdb p3.vdb whole.vdb -o out.vdb
+head -c 5000 p2.vdb >cut.vdb
+expect 3 'cut.vdb: is damaged' merge p1.vdb cut.vdb p3.vdb -o out.vdb
+"$vox" merge p1.vdb p3.vdb -o partial.vdb --partial 2>stderr || fail "merge --partial: $(cat stderr)"
+grep -q 'warning: without part 2 of 3' stderr || fail "merge --partial: $(cat stderr)"
+expect 2 '--part must be I/N' convert "$scenes/torus.toml" --part 3 -o out.vdb
+expect 2 '--part must be I/N, with I from 1 to N' convert "$scenes/torus.toml" --part 4/3 -o out.vdb
+expect 2 '--split' convert "$scenes/torus.toml" --part 1/3 --split part -o out.vdb
+expect 0 '' convert "$scenes/torus.toml" --dim 300 --part 2/3 --dry-run
+[ "$(grep -c '^part [123] of 3: .* % of the surface, in ' stdout)" = 3 ] || fail "dry run of a part: $(cat stdout)"
+expect 3 'holds a part of its grids' check p1.vdb --mesh "$scenes/torus.toml"
+expect 4 'or convert in [0-9]* parts' convert "$scenes/torus.toml" --dim 20000 --grids normal --max-memory 1G -o out.vdb
 
 # Checks: 0 no faults, 1 some. The options are those of the file.
 expect 0 '' check torus.vdb

@@ -199,8 +199,6 @@ Conversion allGrids(Fill fill) {
   options.texture = parseTexture("checker");
   options.volume.fill = fill;
   Conversion whole = bodies(options);
-  // A name that means the number of parts of a conversion, besides.
-  for (const auto& grid : whole.grids) grid->removeMeta("vox_parts");
   return whole;
 }
 

@@ -271,7 +271,7 @@ TEST_CASE("merged parts have the bytes of the whole run, also if some are made i
       Catch::EndsWith("1_4.vdb: is part 1 of 4, which does not fit to parts of 3") ||
           Catch::EndsWith("2_3.vdb: is part 2 of 3, which does not fit to parts of 4"));
   CHECK_THROWS_WITH(merged({write(1, 4), write(5, 16), write(2, 2)}),
-                    Catch::Contains("parts 6-8 of 16"));
+                    Catch::Contains("is one of 16 parts, of which parts 6-8 are missing"));
 }
 
 TEST_CASE("large level sets are made page by page", "[run-part][level-set][pipeline]") {
