@@ -4,6 +4,7 @@
 
 #include <openvdb/math/Coord.h>
 
+#include <cstddef>
 #include <optional>
 
 namespace vox {
@@ -28,6 +29,13 @@ struct PageRange {
   /// Whether some voxel of a box lies in the range. Of a box over many thousand pages the answer
   /// is yes.
   bool meets(const openvdb::CoordBBox& box) const;
+};
+
+/// The pages of one of several runs.
+struct PageShare {
+  PageRange range;
+  std::size_t pages = 0;  ///< that surfaces meet
+  double cost = 0;        ///< part of the cost of all
 };
 
 }  // namespace vox

@@ -23,13 +23,6 @@ struct PageCosts {
 /// (few_polygons.h); so the same on every machine, for any number of threads.
 PageCosts costsOf(std::span<const PreparedSurface> surfaces, const Region& region);
 
-/// A part of the pages.
-struct PageShare {
-  PageRange range;
-  std::size_t pages = 0;  ///< that surfaces meet
-  double cost = 0;        ///< part of the cost of all
-};
-
 /// Cuts all pages there are into contiguous ranges of about equal cost.
 std::vector<PageShare> cutInto(int count, const PageCosts& costs);
 

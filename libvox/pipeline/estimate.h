@@ -1,10 +1,10 @@
 #pragma once
 
+#include "libvox/grid/pages.h"
 #include "libvox/grid/region.h"
 #include "libvox/options/grid_kind.h"
 #include "libvox/options/surface_options.h"
 #include "libvox/options/volume_options.h"
-#include "libvox/pipeline/cut.h"
 #include "libvox/pipeline/prepared_surface.h"
 
 #include <span>

@@ -14,6 +14,7 @@
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/object_look.h"
 #include "libvox/pipeline/parts.h"
+#include "libvox/pipeline/cut.h"
 #include "libvox/pipeline/plan.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/work.h"
