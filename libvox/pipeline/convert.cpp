@@ -247,6 +247,7 @@ openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
 struct MarkedVoxels {
   openvdb::MaskGrid::Ptr all;   ///< as many as tell the inside
   openvdb::MaskGrid::Ptr near;  ///< those asked for, and a few around them
+  bool hasMore = false;         ///< than asked for
 };
 
 /// @param region  of the grids; all voxels unless the request crops
@@ -254,14 +255,14 @@ MarkedVoxels markedVoxels(const Request& request, const Region& region, Prepared
                           Progress& progress, ConvertReport& report) {
   const StageTimer timer(report.surfaceSeconds);
   const auto mask = markObjects(request, prepared, progress, report);
-  const bool hasMore =  // than asked for
+  const bool hasMore =
       needsInside(request.grids, request.volume) || request.volume.edge == Edge::kSoft;
   if (!request.crops() || !hasMore) return {mask, mask};
   const Region around = region.grown(kMarginOfSoft);
   for (PreparedSurface& surface : prepared.surfaces)
     if (surface.voxels) crop(*surface.voxels, around);
   report.activeVoxels = cropped(*mask, prepared.region)->activeVoxelCount();
-  return {mask, cropped(*mask, around)};
+  return {mask, cropped(*mask, around), true};
 }
 
 /// The grids of a request, in its order, before they are cropped and named.
@@ -312,7 +313,7 @@ class GridMaker {
       progress_.begin("grids", partOfWork(kind));
       made_.asked[i] = kind == GridKind::kPart ? parts() : gridOf(kind, request_.volume);
       if (kind == GridKind::kDensity) noteDensity(made_.asked[i]);
-      if (made_.asked[i] == voxels_.near && request_.crops())
+      if (made_.asked[i] == voxels_.near && voxels_.hasMore)
         made_.asked[i] = voxels_.near->deepCopyGrid();  // others still need it
     }
     if (request_.splits) parts();

@@ -12,8 +12,8 @@ namespace vox {
 namespace {
 
 using openvdb::Coord;
-using Lower = openvdb::FloatTree::RootNodeType::ChildNodeType::ChildNodeType;
-static_assert(Lower::DIM == kPageSide);
+using PageNode = openvdb::FloatTree::RootNodeType::ChildNodeType::ChildNodeType;
+static_assert(PageNode::DIM == kPageSide);
 
 /// Pages of a region without a leaf, and the number of the group of each.
 std::unordered_map<Coord, std::size_t> emptyPages(const openvdb::FloatTree& band,
@@ -24,7 +24,7 @@ std::unordered_map<Coord, std::size_t> emptyPages(const openvdb::FloatTree& band
   for (auto page = all.begin(); page; ++page) {
     const Coord origin = *page << kPageLog2;
     if (region.meetsPages(openvdb::CoordBBox::createCube(origin, kPageSide)) &&
-        band.probeConstNode<Lower>(origin) == nullptr)
+        band.probeConstNode<PageNode>(origin) == nullptr)
       pages.emplace(*page, 0);
   }
   return pages;
@@ -64,7 +64,8 @@ void setInnerPages(openvdb::FloatTree& band, const Region& region, const openvdb
   for (Coord& page : middles) page = (page << kPageLog2).offsetBy(kPageSide / 2);
   const std::vector<char> isInside = areInside(middles);
   for (const auto& [page, group] : pages)
-    if (isInside[group - 1] != 0) band.addTile(Lower::LEVEL + 1, page << kPageLog2, inside, false);
+    if (isInside[group - 1] != 0)
+      band.addTile(PageNode::LEVEL + 1, page << kPageLog2, inside, false);
 }
 
 }  // namespace vox
