@@ -328,6 +328,29 @@ TEST_CASE("files of parts say which they are", "[run-part]") {
   CHECK(part.grids[0]->metaValue<std::string>("vox_options") == "dim=40");
 }
 
+TEST_CASE("parts fit into memory that the whole does not fit into", "[run-part][estimate]") {
+  const GridKind kind = GENERATE(GridKind::kMask, GridKind::kDensity, GridKind::kSurface);
+  CAPTURE(nameIn(kGridNames, kind));
+  ConvertOptions options;
+  options.grids = {kind};
+  options.dim = 4000;
+  const Scene scene = oneObject(torusGrid(8, 5));
+  std::vector<std::string> warnings;
+  const Estimate whole = estimate(scene, resolve(scene, options), warnings);
+  options.run.maxMemory = static_cast<std::uint64_t>(whole.bytes / 4);
+  CHECK(estimate(scene, resolve(scene, options), warnings).refusal.find(" parts (--part 1/") !=
+        std::string::npos);
+  double together = 0;
+  for (int number = 1; number <= 16; ++number) {
+    options.part = RunPart{number, 16};
+    const Estimate part = estimate(scene, resolve(scene, options), warnings);
+    CHECK(part.refusal.empty());
+    CHECK(part.shares.size() == 16);
+    together += part.grids[0].voxels;
+  }
+  CHECK(together == Approx(whole.grids[0].voxels).epsilon(0.01));
+}
+
 TEST_CASE("impossible parts are refused", "[run-part][error]") {
   const Scene scene = oneObject(cube());
   for (const RunPart part : {RunPart{0, 3}, RunPart{4, 3}, RunPart{1, 0}, RunPart{-1, -1},

@@ -24,6 +24,7 @@ bool isBefore(const openvdb::Coord& page, const openvdb::Coord& other) {
 bool PageRange::meets(const openvdb::CoordBBox& box) const {
   const openvdb::CoordBBox pages(box.min() >> kPageLog2, box.max() >> kPageLog2);
   constexpr openvdb::Index64 kMostAsked = 1 << 13;
+  if (box.empty()) return false;
   const openvdb::Coord size = pages.dim();
   if (std::max({size.x(), size.y(), size.z()}) > kPageSide || pages.volume() > kMostAsked)
     return true;

@@ -16,6 +16,7 @@
 #include "libvox/io/watched_stream.h"
 #include "libvox/io/write_vdb.h"
 #include "libvox/pipeline/colors.h"
+#include "libvox/pipeline/cut.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/metadata.h"
 #include "libvox/pipeline/part_grid.h"
@@ -272,15 +273,6 @@ struct MadeGrids {
   openvdb::Int32Grid::Ptr parts;
 };
 
-/// The region of a level set of a part. Small ones are made whole, and cropped: then surfaces may
-/// meet themselves.
-Region bandOfPart(const PreparedScene& prepared) {
-  constexpr std::size_t kMostOfSmall = 200;
-  std::size_t pages = 0;
-  for (const PageShare& share : prepared.estimate.shares) pages += share.pages;
-  return pages > kMostOfSmall ? prepared.region : Region{};
-}
-
 /// Makes grids one after the other; later ones use earlier ones.
 class GridMaker {
  public:
@@ -294,7 +286,7 @@ class GridMaker {
         area_(std::accumulate(prepared.areas.begin(), prepared.areas.end(), 0.0)) {
     // Parts go from the surface to the inside, so they are cropped at last.
     sources_.region = request.spreadsParts() ? Region{} : prepared.region;
-    sources_.bandOfPart = bandOfPart(prepared);
+    if (cutsLevelSets(prepared.estimate.shares)) sources_.bandOfPart = prepared.region;
     sources_.surfaces = prepared.surfaces;
     sources_.markVoxels = [this]() -> const openvdb::MaskTree& { return voxelsOfAll(); };
     sources_.partCount = prepared.partNames.size();

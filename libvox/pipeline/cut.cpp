@@ -84,6 +84,13 @@ PageCosts costsOf(std::span<const PreparedSurface> surfaces, const Region& regio
   return sorted;
 }
 
+bool cutsLevelSets(std::span<const PageShare> shares) {
+  constexpr std::size_t kMostOfSmall = 200;
+  std::size_t pages = 0;
+  for (const PageShare& share : shares) pages += share.pages;
+  return pages > kMostOfSmall;
+}
+
 std::vector<PageShare> cutInto(int count, const PageCosts& costs) {
   double all = 0;
   for (const std::uint64_t cost : costs.costs) all += static_cast<double>(cost);

@@ -23,6 +23,10 @@ struct PageCosts {
 /// (few_polygons.h); so the same on every machine, for any number of threads.
 PageCosts costsOf(std::span<const PreparedSurface> surfaces, const Region& region);
 
+/// Whether a level set of a part is made of its pages alone. Small ones are made whole, and
+/// cropped: then surfaces may meet themselves.
+bool cutsLevelSets(std::span<const PageShare> shares);
+
 /// Cuts all pages there are into contiguous ranges of about equal cost.
 std::vector<PageShare> cutInto(int count, const PageCosts& costs);
 

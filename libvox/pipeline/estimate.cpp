@@ -397,7 +397,8 @@ GridEstimate estimateOf(GridKind kind, const Measure& m, const VolumeSettings& v
 }  // namespace
 
 Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
-                       const VolumeSettings& volume, const Region& region, double share) {
+                       const VolumeSettings& volume, const Region& region, double share,
+                       bool cutsLevelSets) {
   const Measure measure = measureOf(surfaces, region).times(share);
   // The inside is found in the whole, and cropped then.
   const bool inside = needsInside(kinds, volume);
@@ -411,7 +412,7 @@ Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<cons
   double uppers = voxels ? sizeof(MaskUpper) : 0;
   for (const GridKind kind : kinds) {
     GridEstimate grid = estimateOf(kind, measure, volume, withDensity);
-    if (needsWhole && kind == GridKind::kSurface)
+    if (needsWhole && kind == GridKind::kSurface && !cutsLevelSets)
       grid.peakBytes = estimateSurface(marked, volume).peakBytes;
     if (needsWhole && kind == GridKind::kPart)
       grid.peakBytes = estimateParts(marked, volume, {}).peakBytes;

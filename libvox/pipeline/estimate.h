@@ -50,10 +50,12 @@ inline constexpr double kEstimateFactor = 1.5;
 /// Estimates grids from few polygons near each surface: from their area, by direction, and from the
 /// large nodes that they meet. Costs little compared with the conversion. Sets neither voxel size
 /// nor levels.
-/// @param region  the voxels asked for; of pages it tells nothing
-/// @param share   part of the cost that its pages have
+/// @param region  the voxels asked for
+/// @param share   if the region has pages: part of the cost that they have
+/// @param cutsLevelSets  as in cut.h
 Estimate estimateGrids(std::span<const PreparedSurface> surfaces, std::span<const GridKind> kinds,
-                       const VolumeSettings& volume, const Region& region = {}, double share = 1);
+                       const VolumeSettings& volume, const Region& region = {}, double share = 1,
+                       bool cutsLevelSets = false);
 
 /// Approximate number of Doo-Sabin steps down to the deepest vertex.
 int levelsOf(const PreparedSurface& surface, Progress& progress);

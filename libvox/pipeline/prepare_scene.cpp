@@ -10,11 +10,11 @@
 #include "libvox/options/voxelize.h"
 #include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/convert.h"
+#include "libvox/pipeline/cut.h"
 #include "libvox/pipeline/grids.h"
 #include "libvox/pipeline/inside.h"
 #include "libvox/pipeline/object_look.h"
 #include "libvox/pipeline/parts.h"
-#include "libvox/pipeline/cut.h"
 #include "libvox/pipeline/plan.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/work.h"
@@ -183,8 +183,8 @@ PreparedScene prepareScene(const Scene& scene, const Request& request, Progress&
           prepared.surfaces[i], request.volume, transform,
           [&] { return gapsOf(scene.objects[i], preparations[i]); }, report.warnings);
   const double share = request.part ? shareOf(*request.part, shares).cost : 1;
-  prepared.estimate =
-      estimateGrids(prepared.surfaces, request.grids, request.volume, prepared.region, share);
+  prepared.estimate = estimateGrids(prepared.surfaces, request.grids, request.volume,
+                                    prepared.region, share, cutsLevelSets(shares));
   prepared.estimate.shares = std::move(shares);
   prepared.estimate.voxelSize = report.voxelSize;
   prepared.estimate.refusal = refusalOf(prepared.estimate, box.longestSide(), budget);
