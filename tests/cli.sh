@@ -682,8 +682,11 @@ expect 3 'stale.vdb: is of another conversion than p1.vdb: it has other options'
 expect 3 'whole.vdb: is not a part' merge p1.vdb p2.vdb p3.vdb whole.vdb -o out.vdb
 head -c 5000 p2.vdb >cut.vdb
 expect 3 'cut.vdb: is damaged' merge p1.vdb cut.vdb p3.vdb -o out.vdb
+expect 2 'leave it out, or --part' convert "$scenes/torus.toml" --part 1/3 --verify -o out.vdb
 "$vox" merge p1.vdb p3.vdb -o partial.vdb --partial 2>stderr || fail "merge --partial: $(cat stderr)"
 grep -q 'warning: without part 2 of 3' stderr || fail "merge --partial: $(cat stderr)"
+expect 3 'partial.vdb: lacks part 2 of 3' check partial.vdb --mesh "$scenes/torus.toml"
+expect 3 'partial.vdb: lacks parts' merge partial.vdb p2.vdb -o out.vdb
 expect 2 '--part must be I/N' convert "$scenes/torus.toml" --part 3 -o out.vdb
 expect 2 '--part must be I/N, with I from 1 to N' convert "$scenes/torus.toml" --part 4/3 -o out.vdb
 expect 2 '--split' convert "$scenes/torus.toml" --part 1/3 --split part -o out.vdb

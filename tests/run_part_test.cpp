@@ -319,6 +319,21 @@ TEST_CASE("parts have the same bytes for any number of threads", "[run-part][par
   }
 }
 
+TEST_CASE("parts agree whether 16 bits are enough, also those without voxels", "[run-part]") {
+  ConvertOptions options;
+  options.grids = {GridKind::kDensity, GridKind::kSurface};
+  options.dim = 60;
+  options.volume.half = true;
+  options.volume.gain = GENERATE(1.0, 1e5);
+  const Scene scene = oneObject(scaled(cube(), GENERATE(1.0, 1e7)));
+  const Conversion whole = convert(scene, resolve(scene, options));
+  for (int number = 1; number <= 12; ++number) {
+    const Conversion part = partOf(scene, options, number, 12);
+    for (std::size_t i = 0; i < 2; ++i)
+      CHECK(part.grids[i]->saveFloatAsHalf() == whole.grids[i]->saveFloatAsHalf());
+  }
+}
+
 TEST_CASE("files of parts say which they are", "[run-part]") {
   ConvertOptions options;
   options.dim = 40;

@@ -171,6 +171,9 @@ void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
     throw InputError(options.file +
                      ": holds a part of its grids (--part): a mesh can be held against whole grids "
                      "only; put the parts together with vox merge");
+  if (const auto missing = grid[kMissingPartsMetadata])
+    throw InputError(options.file + ": lacks " + missing->str() +
+                     ": a mesh can be held against whole grids only");
   const ConvertOptions made = optionsOfFile(grid, options);
   if (made.bounds || made.clip)
     throw InputError(

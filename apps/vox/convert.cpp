@@ -256,7 +256,8 @@ Action addConvert(CLI::App& app) {
   command
       .add("--part", options->part,
            "Make only the I-th of N parts of the grids, for other processes or machines to make "
-           "the others: all with the same input and options. vox merge puts the files together")
+           "the others: all with the same input and options. vox merge puts the files together. "
+           "(These are not the parts of --part-by)")
       .type("I/N")
       .group("Output");
   addPartOptions(command, options->parts);

@@ -99,6 +99,7 @@ std::vector<ObjectCheck> checkObjects(const openvdb::MaskTree& voxels, const Sce
 }
 
 void verify(const Conversion& conversion, const Scene& scene, const Request& request) {
+  if (request.part) throw UsageError("--verify needs the whole surface: leave it out, or --part");
   if (request.crops())
     throw UsageError("--verify needs the whole surface: leave it out, or --bounds and --clip");
   if (request.volume.alpha == Alpha::kCut)

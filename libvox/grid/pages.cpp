@@ -23,10 +23,11 @@ bool isBefore(const openvdb::Coord& page, const openvdb::Coord& other) {
 
 bool PageRange::meets(const openvdb::CoordBBox& box) const {
   const openvdb::CoordBBox pages(box.min() >> kPageLog2, box.max() >> kPageLog2);
+  constexpr int kMostAlong = 128;
   constexpr openvdb::Index64 kMostAsked = 1 << 13;
   if (box.empty()) return false;
   const openvdb::Coord size = pages.dim();
-  if (std::max({size.x(), size.y(), size.z()}) > kPageSide || pages.volume() > kMostAsked)
+  if (std::max({size.x(), size.y(), size.z()}) > kMostAlong || pages.volume() > kMostAsked)
     return true;
   for (auto page = pages.begin(); page; ++page)
     if (contains(*page)) return true;

@@ -7,8 +7,10 @@
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/io/merge_report.h"
 #include "libvox/io/parallel_grid.h"
 #include "libvox/io/write_vdb.h"
+#include "libvox/options/run_part.h"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
@@ -77,13 +79,18 @@ void moveBricks(Upper& from, Upper& to, const typename Upper::ValueType& backgro
   for (auto* brick : bricks) to.addChild(brick);
 }
 
-/// An upper node whose bricks are all the same tile becomes a tile, as in a tree that was pruned.
+/// Upper nodes whose bricks are all the same tile become tiles, as in a tree that was pruned.
 template <class Root>
-void pruneUpper(const typename Root::ChildNodeType& node, Root& root) {
-  typename Root::ValueType value;
-  bool active = false;
-  if (!node.isConstant(value, active)) return;
-  root.addTile(openvdb::Coord(node.origin()), value, active);
+void pruneUppers(Root& root) {
+  std::vector<openvdb::Coord> origins;
+  for (auto child = root.cbeginChildOn(); child; ++child) origins.push_back(child->origin());
+  for (const openvdb::Coord& origin : origins) {
+    typename Root::ValueType value;
+    bool active = false;
+    if (root.template probeConstNode<typename Root::ChildNodeType>(origin)->isConstant(value,
+                                                                                       active))
+      root.addTile(origin, value, active);
+  }
   root.eraseBackgroundTiles();
 }
 
@@ -103,7 +110,6 @@ void moveNodes(TreeT& from, TreeT& to) {
     }
     const std::unique_ptr<Upper> emptied(node);
     moveBricks(*node, *there, to.background());
-    pruneUpper(*there, to.root());
   }
 }
 
@@ -147,7 +153,10 @@ class LeafRecords {
 class GridParts {
  public:
   GridParts(const PartFiles& files, std::size_t index, std::uint64_t maxMemory)
-      : files_(files.parts), index_(index), budget_(maxMemory) {}
+      : files_(files.parts), index_(index), budget_(maxMemory) {
+    if (!files.missing.empty())
+      missing_ = partsText(files.missing) + " of " + std::to_string(files.count);
+  }
 
   /// The grid with the nodes of all parts, and its metadata.
   openvdb::GridBase::ConstPtr join() {
@@ -191,26 +200,36 @@ class GridParts {
 
   template <class GridT>
   openvdb::GridBase::Ptr joinAs() {
+    using Upper = typename GridT::TreeType::RootNodeType::ChildNodeType;
     openvdb::GridBase::Ptr whole;
+    std::uint64_t below = 0;  // bytes of lower nodes and leaves
+    std::uint64_t uppers = 0;
     for (std::size_t part = 0; part < files_.size(); ++part) {
       const openvdb::GridBase::Ptr read = readNodes(files_[part], index_);
-      budget_.take(read->memUsage(), "the nodes of the grid " + read->getName(),
-                   "merge where there is more memory");
       auto& tree = static_cast<GridT&>(*read).tree();
+      const std::uint64_t bytes = read->memUsage();
+      budget_.require(below + uppers * sizeof(Upper) + bytes, "the grid " + read->getName(),
+                      "raise --max-memory, or merge where there is more");
+      below += bytes - std::min<std::uint64_t>(bytes, tree.root().childCount() * sizeof(Upper));
       requireNewBricks(tree, part);
       addLeavesOf(part, tree.leafCount());
       if (!whole) {
         whole = read;
+        uppers = tree.root().childCount();
         continue;
       }
       auto& all = static_cast<GridT&>(*whole).tree();
       if (tree.background() != all.background())
         throw InputError(fileOf(part) + ": has another background than the parts before it");
       moveNodes(tree, all);
+      uppers = all.root().childCount();
     }
+    pruneUppers(static_cast<GridT&>(*whole).tree().root());
     whole->clearMetadata();
     const openvdb::MetaMap all = metadata();
     whole->insertMeta(all);
+    if (!missing_.empty())
+      whole->insertMeta(kMissingPartsMetadata, openvdb::StringMetadata(missing_));
     return whole;
   }
 
@@ -254,6 +273,7 @@ class GridParts {
   std::span<const VdbIndex> files_;
   std::size_t index_;
   MemoryBudget budget_;
+  std::string missing_;                // parts, for the metadata
   std::optional<LastBrick> last_;      // of the parts so far
   std::optional<LeafRecords> leaves_;  // of the parts so far
 };

@@ -19,4 +19,7 @@ struct MergeReport {
   std::vector<int> missing;  ///< their numbers, from 1
 };
 
+/// "part 3", "parts 3, 5-8": numbers that ascend.
+std::string partsText(const std::vector<int>& numbers);
+
 }  // namespace vox

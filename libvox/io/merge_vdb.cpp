@@ -8,6 +8,7 @@
 #include "libvox/io/read_vdb.h"
 #include "libvox/io/unite_grids.h"
 #include "libvox/io/write_vdb.h"
+#include "libvox/options/run_part.h"
 
 #include <algorithm>
 #include <iostream>
@@ -48,6 +49,9 @@ MergeReport mergeVdb(std::iostream& stream, const std::vector<std::filesystem::p
                      const MergeOptions& options) {
   std::vector<VdbIndex> indices = indicesOf(files);
   const auto part = std::find_if(indices.begin(), indices.end(), isPartFile);
+  for (const VdbIndex& file : indices)
+    if (!file.grids.empty() && (*file.grids[0].head)[kMissingPartsMetadata])
+      throw InputError(file.file.string() + ": lacks parts; merge all parts at once");
   if (part == indices.end()) return mergeOthers(stream, indices, options);
   const auto other = std::find_if_not(indices.begin(), indices.end(), isPartFile);
   if (other != indices.end())
@@ -65,18 +69,6 @@ MergeReport mergeVdb(std::iostream& stream, const std::vector<std::filesystem::p
   report.partCount = parts.count;
   report.missing = std::move(parts.missing);
   return report;
-}
-
-std::string partsText(const std::vector<int>& numbers) {
-  std::string text = numbers.size() == 1 ? "part" : "parts";
-  for (std::size_t i = 0; i < numbers.size();) {
-    std::size_t end = i + 1;
-    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
-    text += (i == 0 ? " " : ", ") + std::to_string(numbers[i]);
-    if (end - i > 1) text += '-' + std::to_string(numbers[end - 1]);
-    i = end;
-  }
-  return text;
 }
 
 }  // namespace vox

@@ -27,7 +27,4 @@ struct MergeOptions {
 MergeReport mergeVdb(std::iostream& stream, const std::vector<std::filesystem::path>& files,
                      const MergeOptions& options = {});
 
-/// "part 3", "parts 3, 5-8": numbers that ascend.
-std::string partsText(const std::vector<int>& numbers);
-
 }  // namespace vox

@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/io/merge_report.h"
 #include "libvox/options/option_text.h"
 #include "libvox/options/run_part.h"
 
@@ -89,6 +90,10 @@ void requireSameNumbers(const VdbIndex& file) {
         throw InputError(file.file.string() + ": its grids are not of one part");
 }
 
+std::string partOf(int number, int count) {
+  return "part " + std::to_string(number) + " of " + std::to_string(count);
+}
+
 /// Statistics that OpenVDB adds when it writes a grid.
 bool isStatistic(const std::string& key) {
   return key.starts_with("file_");
@@ -128,16 +133,19 @@ bool isPartFile(const VdbIndex& file) {
 PartFiles orderedParts(std::vector<VdbIndex> files) {
   requireSameTraits(files);
   PartFiles set;
-  for (const VdbIndex& file : files)
-    set.count = std::max(set.count, *numberIn(*file.grids.front().head, kRunPartsMetadata));
-  std::map<int, VdbIndex*> bySlot;  // a slot is as wide as the smallest parts
-  for (VdbIndex& file : files) {
+  for (const VdbIndex& file : files) {
     requireSameNumbers(file);
     const int number = *numberIn(*file.grids.front().head, kRunPartMetadata);
     const int count = *numberIn(*file.grids.front().head, kRunPartsMetadata);
-    const std::string text = "part " + std::to_string(number) + " of " + std::to_string(count);
     if (number < 1 || number > count || count > kMostRunParts)
-      throw InputError(file.file.string() + ": is " + text + ", which cannot be");
+      throw InputError(file.file.string() + ": is " + partOf(number, count) + ", which cannot be");
+    set.count = std::max(set.count, count);
+  }
+  std::map<int, VdbIndex*> bySlot;  // a slot is as wide as the smallest parts
+  for (VdbIndex& file : files) {
+    const int number = *numberIn(*file.grids.front().head, kRunPartMetadata);
+    const int count = *numberIn(*file.grids.front().head, kRunPartsMetadata);
+    const std::string text = partOf(number, count);
     const int width = set.count / count;
     if (set.count % count != 0 || !std::has_single_bit(static_cast<unsigned>(width)))
       throw InputError(file.file.string() + ": is " + text + ", which does not fit to parts of " +
@@ -160,6 +168,18 @@ PartFiles orderedParts(std::vector<VdbIndex> files) {
     }
   }
   return set;
+}
+
+std::string partsText(const std::vector<int>& numbers) {
+  std::string text = numbers.size() == 1 ? "part" : "parts";
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t end = i + 1;
+    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
+    text += (i == 0 ? " " : ", ") + std::to_string(numbers[i]);
+    if (end - i > 1) text += '-' + std::to_string(numbers[end - 1]);
+    i = end;
+  }
+  return text;
 }
 
 openvdb::MetaMap metadataOfWhole(std::span<const VdbIndex> files,

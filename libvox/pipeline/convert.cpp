@@ -29,7 +29,6 @@
 #include "libvox/pipeline/work.h"
 #include "libvox/volume/density.h"
 
-#include <openvdb/tools/Count.h>
 #include <openvdb/tools/Prune.h>
 
 #include <algorithm>
@@ -211,20 +210,22 @@ std::vector<std::size_t> orderOf(const std::vector<GridKind>& kinds) {
   return order;
 }
 
-/// Largest absolute value of a grid of numbers, its background included. Vectors and masks: 1,
-/// because normals are units, and colours are at most 1.
-double largestValue(const openvdb::GridBase& grid) {
+/// Largest absolute value that a grid of numbers may have, in any part of a run. Vectors and masks:
+/// 1, because normals are units, and colours are at most 1.
+double largestValue(const openvdb::GridBase& grid, const VolumeSettings& volume) {
   const auto* numbers = dynamic_cast<const openvdb::FloatGrid*>(&grid);
   if (numbers == nullptr) return 1;
-  const auto range = openvdb::tools::minMax(numbers->tree());
-  return std::max({std::abs(range.min()), std::abs(range.max()), std::abs(numbers->background())});
+  if (const auto gain = grid.getMetadata<openvdb::FloatMetadata>(kGainMetadata))
+    return double{gain->value()};
+  return std::max(volume.band.in, volume.band.out) * grid.voxelSize()[0];
 }
 
 /// Whether floats of 16 bits hold the values of a grid as well as they hold numbers near 1.
-bool fitsHalf(const openvdb::GridBase& grid, std::vector<std::string>& warnings) {
+bool fitsHalf(const openvdb::GridBase& grid, const VolumeSettings& volume,
+              std::vector<std::string>& warnings) {
   constexpr double kLargest = 65504, kLeastNormal = 1.0 / 16384;
-  const double largest = largestValue(grid);
-  if (largest == 0 || (largest >= kLeastNormal && largest <= kLargest)) return true;
+  const double largest = largestValue(grid, volume);
+  if (largest >= kLeastNormal && largest <= kLargest) return true;
   std::ostringstream text;
   text << "the grid " << grid.getName() << " is written with 32 bits: its values, up to " << largest
        << ", are too " << (largest > 1 ? "large" : "small")
@@ -238,7 +239,8 @@ openvdb::GridBase::Ptr finished(openvdb::GridBase::Ptr grid, GridKind kind,
                                 const VolumeSettings& volume, const openvdb::MetaMap& metadata,
                                 std::vector<std::string>& warnings) {
   grid->setName(gridNameFor(kind, volume.target));
-  if (kind != GridKind::kPart) grid->setSaveFloatAsHalf(volume.half && fitsHalf(*grid, warnings));
+  if (kind != GridKind::kPart)
+    grid->setSaveFloatAsHalf(volume.half && fitsHalf(*grid, volume, warnings));
   for (auto entry = metadata.beginMeta(); entry != metadata.endMeta(); ++entry)
     grid->insertMeta(entry->first, *entry->second);
   return grid;

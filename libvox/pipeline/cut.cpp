@@ -2,7 +2,7 @@
 
 #include "libvox/pipeline/cut.h"
 
-#include "libvox/mesh/area_vector.h"
+#include "libvox/mesh/area.h"
 #include "libvox/pipeline/few_polygons.h"
 
 #include <algorithm>
@@ -20,19 +20,21 @@ struct FileOrder {
 };
 using Costs = std::map<Coord, std::uint64_t, FileOrder>;
 
-/// Adds the area of a triangle to the pages that it meets, in pieces of half a page.
+/// Adds the area of triangles to the pages that they meet, in pieces of half a page, or in larger
+/// ones if there would be too many.
 class TriangleCosts {
  public:
-  TriangleCosts(const Region& region, Costs& costs)
-      : region_(region), costs_(costs), last_(costs.end()) {}
+  /// @param area  of all triangles
+  TriangleCosts(const Region& region, double area, Costs& costs)
+      : region_(region), longest_(longestFor(area)), costs_(costs), last_(costs.end()) {}
 
   void add(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    constexpr double kLongest = kPageSide / 2.0;
+    if (region_.box() && !region_.meets(boxOf(a, b, c))) return;
     const double ab = (b - a).squaredNorm();
     const double bc = (c - b).squaredNorm();
     const double ca = (a - c).squaredNorm();
     const double longest = std::max({ab, bc, ca});
-    if (longest > kLongest * kLongest) {
+    if (longest > longest_ * longest_) {
       if (ab == longest) return addHalves(c, a, b);
       if (bc == longest) return addHalves(a, b, c);
       return addHalves(b, c, a);
@@ -49,6 +51,17 @@ class TriangleCosts {
   }
 
  private:
+  static double longestFor(double area) {
+    constexpr double kMostPieces = 1 << 18;
+    return std::max(kPageSide / 2.0, std::sqrt(area / kMostPieces));
+  }
+
+  static Box boxOf(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    Box box;
+    for (const Vec3d& point : {a, b, c}) box.add(point);
+    return box;
+  }
+
   /// Cuts the side from a to b.
   void addHalves(const Vec3d& top, const Vec3d& a, const Vec3d& b) {
     const Vec3d middle = (a + b) / 2;
@@ -57,6 +70,7 @@ class TriangleCosts {
   }
 
   const Region& region_;
+  double longest_;
   Costs& costs_;
   Costs::iterator last_;
 };
@@ -65,11 +79,11 @@ class TriangleCosts {
 
 PageCosts costsOf(std::span<const PreparedSurface> surfaces, const Region& region) {
   Costs costs;
-  TriangleCosts triangles(region, costs);
   for (const PreparedSurface& surface : surfaces) {
     const std::optional<PolygonMesh> few = fewPolygons(surface.base, levelOf(surface.way));
     const PolygonMesh& polygons = few ? *few : surface.base.mesh;
     const auto& p = polygons.points;
+    TriangleCosts triangles(region, areaOf(polygons), costs);
     for (Index f = 0; f < polygons.faceCount(); ++f) {
       const auto face = polygons.face(f);
       for (std::size_t i = 1; i + 1 < face.size(); ++i)
