@@ -1,12 +1,13 @@
 // Nodes of parts in one tree, and their packed values one after the other. OpenVDB's files list the
 // values of a grid leaf by leaf in the order of the tree, and so does a sequence of parts whose
-// bricks are ranges of that order.
+// pages are ranges of that order.
 
 #include "libvox/io/merge_parts.h"
 
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/grid/pages.h"
 #include "libvox/io/merge_report.h"
 #include "libvox/io/parallel_grid.h"
 #include "libvox/io/write_vdb.h"
@@ -32,13 +33,9 @@
 namespace vox {
 namespace {
 
-/// The bricks of a tree are its lower internal nodes and tiles of their size. Their place in the
-/// order of the file: the origin of the upper node, and the place in it.
-using BrickPlace = std::pair<openvdb::Coord, openvdb::Index>;
-
-struct BrickRange {
-  BrickPlace first;
-  BrickPlace last;
+/// The first and the last page of some, in the order of the file (grid/pages.h).
+struct PagesOfTree {
+  openvdb::Coord first, last;
 };
 
 template <class Node>
@@ -47,39 +44,40 @@ bool isBackground(const Node& node, openvdb::Index i, const typename Node::Value
          node.getTable()[i].getValue() == background;
 }
 
-/// The bricks that are not background.
+/// The pages that are not background.
 template <class TreeT>
-std::optional<BrickRange> bricksOf(const TreeT& tree) {
+std::optional<PagesOfTree> pagesOf(const TreeT& tree) {
   using Upper = typename TreeT::RootNodeType::ChildNodeType;
-  std::optional<BrickRange> range;
-  const auto add = [&](const BrickPlace& place) {
-    if (!range) range = {place, place};
-    range->first = std::min(range->first, place);
-    range->last = std::max(range->last, place);
+  std::optional<PagesOfTree> range;
+  const auto add = [&](const openvdb::Coord& voxel) {
+    const openvdb::Coord page = voxel >> kPageLog2;
+    if (!range) range = {page, page};
+    if (isBefore(page, range->first)) range->first = page;
+    if (isBefore(range->last, page)) range->last = page;
   };
   for (auto upper = tree.root().cbeginChildOn(); upper; ++upper)
     for (openvdb::Index i = 0; i < Upper::NUM_VALUES; ++i)
-      if (!isBackground(*upper, i, tree.background())) add({upper.getCoord(), i});
+      if (!isBackground(*upper, i, tree.background())) add(upper->offsetToGlobalCoord(i));
   for (auto tile = tree.root().cbeginValueAll(); tile; ++tile) {
     if (tile.isValueOff() && *tile == tree.background()) continue;
-    add({tile.getCoord(), 0});
-    add({tile.getCoord(), Upper::NUM_VALUES - 1});
+    add(tile.getCoord());
+    add(tile.getCoord().offsetBy(Upper::DIM - 1));
   }
   return range;
 }
 
-/// Moves the bricks of an upper node into another one, where they are background.
+/// Moves the pages of an upper node into another one, where they are background.
 template <class Upper>
-void moveBricks(Upper& from, Upper& to, const typename Upper::ValueType& background) {
+void movePages(Upper& from, Upper& to, const typename Upper::ValueType& background) {
   for (openvdb::Index i = 0; i < Upper::NUM_VALUES; ++i)
     if (!from.isChildMaskOn(i) && !isBackground(from, i, background))
       to.addTile(i, from.getTable()[i].getValue(), from.isValueMaskOn(i));
-  std::vector<typename Upper::ChildNodeType*> bricks;
-  from.stealNodes(bricks, background, false);
-  for (auto* brick : bricks) to.addChild(brick);
+  std::vector<typename Upper::ChildNodeType*> pages;
+  from.stealNodes(pages, background, false);
+  for (auto* page : pages) to.addChild(page);
 }
 
-/// Upper nodes whose bricks are all the same tile become tiles, as in a tree that was pruned.
+/// Upper nodes whose pages are all the same tile become tiles, as in a tree that was pruned.
 template <class Root>
 void pruneUppers(Root& root) {
   std::vector<openvdb::Coord> origins;
@@ -109,7 +107,7 @@ void moveNodes(TreeT& from, TreeT& to) {
       continue;
     }
     const std::unique_ptr<Upper> emptied(node);
-    moveBricks(*node, *there, to.background());
+    movePages(*node, *there, to.background());
   }
 }
 
@@ -211,7 +209,7 @@ class GridParts {
       budget_.require(below + uppers * sizeof(Upper) + bytes, "the grid " + read->getName(),
                       "raise --max-memory, or merge where there is more");
       below += bytes - std::min<std::uint64_t>(bytes, tree.root().childCount() * sizeof(Upper));
-      requireNewBricks(tree, part);
+      requireNewPages(tree, part);
       addLeavesOf(part, tree.leafCount());
       if (!whole) {
         whole = read;
@@ -233,12 +231,12 @@ class GridParts {
     return whole;
   }
 
-  /// Checks that the bricks of a part come after those of the parts before it.
+  /// Checks that the pages of a part come after those of the parts before it.
   template <class TreeT>
-  void requireNewBricks(const TreeT& tree, std::size_t part) {
-    const auto range = bricksOf(tree);
+  void requireNewPages(const TreeT& tree, std::size_t part) {
+    const auto range = pagesOf(tree);
     if (!range) return;
-    if (last_ && range->first <= last_->place)
+    if (last_ && !isBefore(last_->page, range->first))
       throw InputError(fileOf(part) + ": has voxels of the part " + fileOf(last_->part) +
                        " in the grid " + head(0).getName());
     last_ = {range->last, part};
@@ -265,8 +263,8 @@ class GridParts {
     }
   }
 
-  struct LastBrick {
-    BrickPlace place;
+  struct LastPage {
+    openvdb::Coord page;
     std::size_t part;
   };
 
@@ -274,7 +272,7 @@ class GridParts {
   std::size_t index_;
   MemoryBudget budget_;
   std::string missing_;                // parts, for the metadata
-  std::optional<LastBrick> last_;      // of the parts so far
+  std::optional<LastPage> last_;       // of the parts so far
   std::optional<LeafRecords> leaves_;  // of the parts so far
 };
 
