@@ -13,7 +13,7 @@ dpkg-deb --field vox_*.deb Depends | grep libopenvdb
 dpkg-deb --contents libvox-dev_*.deb | grep usr/include/libvox/pipeline/convert.h
 dpkg-deb --extract vox_*.deb root
 root/usr/bin/vox convert "$scenes/torus.toml" -o torus.vdb --dim 30 --verify
-[ -x root/usr/share/vox/farm/slurm.sh ]
+[ -x root/usr/share/vox/cluster/slurm.sh ]
 gzip -dc root/usr/share/man/man1/vox.1.gz | grep '^.SS vox convert'
 
 # Completion: commands, options, values.

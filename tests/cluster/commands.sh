@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The commands of apps/farm/commands.sh, run by sh, make the file of the conversion as a whole, also
+# The commands of apps/cluster/commands.sh, run by sh, make the file of the conversion as a whole, also
 # where names have blanks and quotes. Mistakes are one line. Usage: commands.sh VOX SOURCE
 set -euo pipefail
 VOX=$(realpath "$1")
@@ -8,7 +8,7 @@ source=$(realpath "$2")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-commands=$source/apps/farm/commands.sh
+commands=$source/apps/cluster/commands.sh
 cp "$source/scenes/toy_jack.obj" jack.obj
 
 "$VOX" convert jack.obj -o whole.vdb --dim 300 --grids density,mask

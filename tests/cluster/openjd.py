@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""apps/farm/openjd.yaml keeps the specification jobtemplate-2023-09 (the part of it that is used, with
+"""apps/cluster/openjd.yaml keeps the specification jobtemplate-2023-09 (the part of it that is used, with
 no extensions), and its tasks, run in the order of the steps, make the file of the conversion as a
 whole. Usage: openjd.py VOX SOURCE"""
 
@@ -182,7 +182,7 @@ def run(template, arguments, folder):
 
 def main():
     vox, source = map(os.path.abspath, sys.argv[1:])
-    with open(os.path.join(source, "apps/farm/openjd.yaml"), encoding="utf-8") as file:
+    with open(os.path.join(source, "apps/cluster/openjd.yaml"), encoding="utf-8") as file:
         template = yaml.safe_load(file)
     check_template(template)
     with tempfile.TemporaryDirectory() as folder:

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# apps/farm/parallel.sh: of 8 parts two are killed at random moments. The next run makes these two
+# apps/cluster/parallel.sh: of 8 parts two are killed at random moments. The next run makes these two
 # alone, and the merged file is that of the conversion as a whole. Usage: parallel.sh VOX SOURCE
 set -euo pipefail
 parallel --version 2>/dev/null | grep -q '^GNU parallel' ||
@@ -9,7 +9,7 @@ source=$(realpath "$2")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-farm() { VOX=$folder/vox "$source/apps/farm/parallel.sh" "$@"; }
+cluster() { VOX=$folder/vox "$source/apps/cluster/parallel.sh" "$@"; }
 fail() {
   echo "FAILED: $*"
   exit 1
@@ -38,20 +38,20 @@ options=(--dim 500 --grids density,surface)
 mapfile -t victims < <(seq 8 | shuf -n 2 | sort -n)
 for part in "${victims[@]}"; do touch "victim.$part"; done
 echo "victims: ${victims[*]}"
-farm --jobs 2 8 jack.obj jack.vdb "${options[@]}" 2>stderr && fail "killed parts, and no error"
+cluster --jobs 2 8 jack.obj jack.vdb "${options[@]}" 2>stderr && fail "killed parts, and no error"
 grep -q '^parallel.sh: error: parts failed' stderr || fail "$(cat stderr)"
 [ ! -e jack.vdb ] || fail "a merge of missing parts"
 
 # Parts of another command, or of an older mesh, are not taken.
-farm 8 jack.obj jack.vdb --dim 500 2>stderr && fail "another command"
+cluster 8 jack.obj jack.vdb --dim 500 2>stderr && fail "another command"
 grep -q 'is from another command' stderr || fail "$(cat stderr)"
 touch -d '1 minute' jack.obj
-farm 8 jack.obj jack.vdb "${options[@]}" 2>stderr && fail "a newer mesh"
+cluster 8 jack.obj jack.vdb "${options[@]}" 2>stderr && fail "a newer mesh"
 grep -q 'is newer' stderr || fail "$(cat stderr)"
 touch -d '1 hour ago' jack.obj
 
 : >runs
-farm --jobs 2 8 jack.obj jack.vdb "${options[@]}"
+cluster --jobs 2 8 jack.obj jack.vdb "${options[@]}"
 [ "$(grep . runs | sort -n | xargs)" = "${victims[*]}" ] || fail "ran again: $(xargs <runs)"
 cmp jack.vdb whole.vdb
 [ ! -e jack.parts ] || fail "left $(ls jack.parts)"
@@ -68,6 +68,6 @@ SSH
 chmod +x ssh
 printf '1/left\n1/right\n' >hosts
 rm jack.vdb
-PARALLEL_SSH=$folder/ssh farm --hosts hosts 4 jack.obj jack.vdb "${options[@]}"
+PARALLEL_SSH=$folder/ssh cluster --hosts hosts 4 jack.obj jack.vdb "${options[@]}"
 cmp jack.vdb whole.vdb
 [ "$(sort -u hosts_used | xargs)" = 'left right' ] || fail "hosts: $(xargs <hosts_used)"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# apps/farm/slurm.sh on a real Slurm: one node, this machine, with folders, ports and a key of its own.
+# apps/cluster/slurm.sh on a real Slurm: one node, this machine, with folders, ports and a key of its own.
 # The merged file of 8 parts is that of the conversion as a whole. A task that exceeds its memory
 # fails alone, and its part alone is cut into halves. Usage: slurm.sh VOX SOURCE
 set -euo pipefail
@@ -51,7 +51,7 @@ host=$(hostname -s)
 mkdir log state spool
 (umask 077 && head -c 1024 /dev/urandom >munge.key)
 cat >slurm.conf <<CONF
-ClusterName=farm
+ClusterName=cluster
 SlurmctldHost=$host(127.0.0.1)
 SlurmctldPort=$(free_port)
 SlurmdPort=$(free_port)
@@ -78,7 +78,7 @@ ReturnToService=2
 MessageTimeout=60
 SchedulerParameters=batch_sched_delay=0
 NodeName=$host NodeAddr=127.0.0.1 CPUs=2 RealMemory=1500 State=UNKNOWN
-PartitionName=farm Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+PartitionName=cluster Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 CONF
 munged --foreground --force --key-file munge.key --socket "$folder/munge.socket" \
   --pid-file "$folder/munged.pid" --log-file "$folder/log/munged" --seed-file "$folder/munge.seed" \
@@ -95,7 +95,7 @@ idle() {
   local jobs
   jobs=$(squeue -h) && [ -z "$jobs" ]
 }
-farm() { "$source/apps/farm/slurm.sh" --mem 500M "$@"; }
+cluster() { "$source/apps/cluster/slurm.sh" --mem 500M "$@"; }
 array_in() { sed -nE 's/^[0-9]+ of [0-9]+ parts: job ([0-9]+);.*/\1/p' "$1"; }
 states() { squeue -h -a -t all -r -o '%K %T' -j "$1" | sort -n; }
 cp "$source/scenes/toy_jack.obj" jack.obj
@@ -103,7 +103,7 @@ options=(--dim 400 --grids density,surface)
 "$vox" convert jack.obj -o whole.vdb "${options[@]}"
 
 # An array of 8, and the merge that depends on it.
-VOX=$vox farm 8 jack.obj jack.vdb "${options[@]}" | tee submitted
+VOX=$vox cluster 8 jack.obj jack.vdb "${options[@]}" | tee submitted
 until_true 300 idle
 cmp jack.vdb whole.vdb || fail "8 parts"
 [ -z "$(ls jack.parts/*.vdb 2>/dev/null)" ] || fail "left $(ls jack.parts)"
@@ -118,7 +118,7 @@ case "\$*" in *'--part 3/8 '* | *'--part 5/16 '* | *'--part 1/2 '*) python3 -c '
 exec '$vox' "\$@"
 VOX
 chmod +x hungry
-VOX=$folder/hungry farm 8 jack.obj jack.vdb "${options[@]}" | tee submitted
+VOX=$folder/hungry cluster 8 jack.obj jack.vdb "${options[@]}" | tee submitted
 until_true 300 idle
 array=$(array_in submitted)
 [ "$(states "$array" | grep -v ' COMPLETED$' | cut -d ' ' -f 1)" = 3 ] || fail "$(states "$array")"
@@ -131,8 +131,8 @@ cmp jack.vdb whole.vdb || fail "halves"
 rm -r jack.vdb jack.parts
 
 # Nothing is submitted again if smaller parts do not help, or if there have been enough.
-VOX=$vox farm 2 jack.obj jack.vdb --grids nonsense
-VOX=$folder/hungry farm --halvings 0 2 jack.obj few.vdb "${options[@]}"
+VOX=$vox cluster 2 jack.obj jack.vdb --grids nonsense
+VOX=$folder/hungry cluster --halvings 0 2 jack.obj few.vdb "${options[@]}"
 until_true 300 idle
 grep -q 'error: a part failed, and not for memory' jack.parts/again_of_2.log || fail "bad option"
 grep -q 'no halvings left' few.parts/again_of_2.log || fail "halvings"
