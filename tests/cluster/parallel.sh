@@ -56,14 +56,15 @@ cluster --jobs 2 8 jack.obj jack.vdb "${options[@]}"
 cmp jack.vdb whole.vdb
 [ ! -e jack.parts ] || fail "left $(ls jack.parts)"
 
-# Two hosts; ssh is a stand-in that runs here what the other host would run.
+# Two hosts; ssh is a stand-in that runs here what the other host would run. As sshd does, it sets
+# SHELL: without it GNU parallel runs nothing there, and calls that a success.
 cat >ssh <<'SSH'
 #!/usr/bin/env bash
 while [[ $1 == -* ]]; do shift; done
 echo "$1" >>"$FOLDER/hosts_used"
 shift
 [ "$1" != -- ] || shift
-cd / && exec sh -c "$*"
+cd / && SHELL=/bin/sh exec sh -c "$*"
 SSH
 chmod +x ssh
 printf '1/left\n1/right\n' >hosts
