@@ -188,6 +188,46 @@ cmp -s jack.vdb first.vdb || fail "two runs differ"
 expect 0 '' convert "$scenes/toy_jack.toml" -o jack.vdb --dim 64 --grids density,mask --force --quiet
 [ -s stderr ] && fail "--quiet is not quiet"
 
+# NanoVDB files: the same grids, from and for every command.
+expect 0 'jack.nvdb: [0-9]+ active voxels' convert "$scenes/toy_jack.toml" -o jack.nvdb --dim 64 --grids density,mask
+expect 5 'force' convert "$scenes/toy_jack.toml" -o jack.nvdb --dim 64
+expect 0 '' diff --no-metadata jack.vdb jack.nvdb
+expect 1 '' diff jack.vdb jack.nvdb
+grep -q 'metadata vox_version' stdout || fail "diff: .nvdb has metadata"
+expect 0 '' info jack.nvdb
+grep -q 'grid density: Tree_float_5_4_3, fog volume' stdout || fail "info: no density in .nvdb"
+expect 0 '' check jack.nvdb --mesh "$scenes/toy_jack.toml"
+expect 0 '' render jack.nvdb -o jack.png --size 64x64
+expect 0 'copy.nvdb: 2 grids' convert jack.vdb -o copy.nvdb
+cmp -s copy.nvdb jack.nvdb || fail "convert: .nvdb of a mesh and of its .vdb differ"
+expect 0 'copy.vdb: 2 grids' convert copy.nvdb -o copy.vdb --compression zip
+expect 0 '' diff --no-metadata copy.vdb jack.vdb
+expect 0 'copy.vdb: 2 grids' convert jack.vdb -o copy.vdb -f
+expect 0 '' diff copy.vdb jack.vdb
+expect 0 '' merge copy.nvdb jack.nvdb -o merged.vdb
+expect 0 '' diff --no-metadata merged.vdb jack.vdb
+expect 0 'like.vdb' convert "$scenes/toy_jack.toml" -o like.vdb --like jack.nvdb:density --grids density,mask
+expect 0 '' diff --no-metadata like.vdb jack.vdb
+for compression in blosc zip none; do
+  expect 0 '' convert jack.vdb -o copy.nvdb --compression $compression -f --threads 1
+  "$vox" convert -q jack.vdb -o other.nvdb --compression $compression -f
+  cmp -s copy.nvdb other.nvdb || fail ".nvdb of 1 thread differs"
+  expect 0 '' diff --no-metadata jack.vdb copy.nvdb
+  head -c 2000 copy.nvdb >cut.nvdb
+  expect 3 'cut.nvdb: is (truncated|damaged)' info cut.nvdb
+  expect 3 'cut.nvdb: is (truncated|damaged)' convert cut.nvdb -o out.vdb
+done
+expect 2 'jack.vdb: --dim is for meshes and scenes only' convert jack.vdb -o out.nvdb --dim 3
+expect 2 'jack.vdb: is the input' convert jack.vdb -o jack.vdb -f
+expect 2 'out.nvdb: .*--half' convert good.obj -o out.nvdb --dim 3 --half
+expect 2 'out.nvdb: .*vox merge' convert good.obj -o out.nvdb --dim 3 --part 1/2
+expect 2 'must end in .vdb' diff jack.vdb jack.nvdb -o out.nvdb
+expect 2 'must end in .vdb' merge jack.vdb jack.nvdb -o out.nvdb
+cp jack.vdb wrong.nvdb
+expect 3 'wrong.nvdb: is not a NanoVDB file' diff jack.vdb wrong.nvdb
+cp jack.nvdb wrong.vdb
+expect 3 'wrong.vdb: is not an OpenVDB file' check wrong.vdb
+
 # Each scene gives the voxels it states.
 for scene in "$scenes"/*.toml; do
   stated=$(sed -n 's/^# Active voxels: //p' "$scene")

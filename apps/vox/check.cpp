@@ -309,7 +309,8 @@ Action addCheck(CLI::App& app) {
   const Command command(
       app, "check", "Find faults of a .vdb file: tunnels, leaks, grids that viewers do not show");
   const auto options = std::make_shared<CheckArguments>();
-  command.add("FILE", options->file, "OpenVDB file (.vdb) of any program").required();
+  command.add("FILE", options->file, "OpenVDB file (.vdb) or NanoVDB file (.nvdb) of any program")
+      .required();
   command
       .add("--mesh", options->mesh,
            "Scene or mesh that the file was made from. The voxels are compared with its "

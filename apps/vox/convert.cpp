@@ -1,9 +1,10 @@
-// vox convert: a mesh or scene into a .vdb file.
+// vox convert: a mesh or scene into a file of grids, or such a file into another format.
 
 #include "libvox/pipeline/convert.h"
 
 #include "apps/vox/command.h"
 #include "apps/vox/convert_report.h"
+#include "apps/vox/copy_grids.h"
 #include "apps/vox/counted.h"
 #include "apps/vox/interrupt.h"
 #include "apps/vox/options.h"
@@ -17,6 +18,7 @@
 #include "libvox/core/stopwatch.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/atomic_file.h"
+#include "libvox/io/grid_file.h"
 #include "libvox/io/input_file.h"
 #include "libvox/pipeline/refine.h"
 
@@ -46,6 +48,7 @@ struct ConvertArguments {
   bool verify = false;
   bool dryRun = false;
   CommonOptions common;
+  std::vector<Option> meshOptions;  ///< those that files of grids do not have
 };
 
 void sayReport(const ConvertArguments& options, const FinishedRun& run) {
@@ -133,9 +136,8 @@ void requireOutputs(const ConvertArguments& options, const Frame& frame, const S
 ConvertOptions parse(const ConvertArguments& options) {
   if (options.output.empty() && !options.dryRun)
     throw UsageError("--output is required; or see what it would be with --dry-run");
-  if (!options.output.empty() && !isStdout(options.output) &&
-      lowerExtension(options.output) != ".vdb")
-    throw UsageError(options.output + ": the output of vox convert must end in .vdb");
+  if (!options.output.empty() && !isStdout(options.output) && !isGridFile(options.output))
+    throw UsageError(options.output + ": the output of vox convert must end in .vdb or .nvdb");
   if (!options.report.empty() && lowerExtension(options.report) != ".json")
     throw UsageError(options.report + ": the file of --report must end in .json");
   ConvertOptions parsed = parseConversion(options.conversion, options.common.run);
@@ -144,6 +146,15 @@ ConvertOptions parse(const ConvertArguments& options) {
   parsed.volume = parseVolume(options.volume);
   if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
   return parsed;
+}
+
+/// @throws UsageError  NanoVDB cannot hold what is asked for
+void requireHeld(const std::string& output, const Request& request) {
+  if (!isNvdb(output)) return;
+  if (request.part)
+    throw UsageError(output + ": has no place for what vox merge must know of parts; write .vdb");
+  if (request.volume.half)
+    throw UsageError(output + ": holds floats of 32 bits, not of 16 (--half); write .vdb");
 }
 
 /// The grids stay to the end of the process: to free millions of nodes takes longer than to end.
@@ -186,6 +197,7 @@ void runFrame(const ConvertArguments& options, const Frame& frame, ConvertOption
   Progress progress(bar.callback());
   convertOptions.run.progress = &progress;
   const Request request = resolve(scene, convertOptions);
+  requireHeld(frame.output, request);
   Conversion& conversion = conversionOfProcess();
   double writeSeconds = 0;
   {
@@ -207,9 +219,22 @@ void runFrame(const ConvertArguments& options, const Frame& frame, ConvertOption
   sayReport(options, finished);
 }
 
+/// Files of grids in, and out in another format or compression.
+int runCopy(const ConvertArguments& options, const std::vector<Frame>& frames,
+            std::optional<Compression> compression) {
+  for (const Option& option : options.meshOptions)
+    if (option.isGiven())
+      throw UsageError(frames[0].input + ": " + option.name() + " is for meshes and scenes only");
+  for (const Frame& frame : frames)
+    copyGrids(frame.input, frame.output, compression, options.common);
+  return 0;
+}
+
 int runConvert(const ConvertArguments& options) {
   ConvertOptions convertOptions = parse(options);
   const std::vector<Frame> frames = framesOf(options.inputs, options.output);
+  if (isGridFile(frames[0].input))
+    return runCopy(options, frames, convertOptions.volume.compression);
   if (frames.size() > 1) shareVoxelSize(options, frames, convertOptions);
   for (const Frame& frame : frames) runFrame(options, frame, convertOptions);
   return 0;
@@ -218,18 +243,23 @@ int runConvert(const ConvertArguments& options) {
 }  // namespace
 
 Action addConvert(CLI::App& app) {
-  const Command command(app, "convert", "Convert a mesh or scene into a smooth voxel model (.vdb)");
+  const Command command(app, "convert",
+                        "Convert a mesh or scene into a smooth voxel model (.vdb, .nvdb)");
   const auto options = std::make_shared<ConvertArguments>();
   command
-      .add("INPUT", options->inputs,
-           "Scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb). Several inputs, or a "
-           "pattern "
-           "such as mesh.####.obj, become a sequence out.####.vdb with one voxel size")
+      .add(
+          "INPUT", options->inputs,
+          "Scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb). Several inputs, or a "
+          "pattern such as mesh.####.obj, become a sequence out.####.vdb with one voxel size. Or a "
+          "file of grids (.vdb .nvdb), to be written in the other format or with another "
+          "--compression")
       .required()
       .type("");
   command
       .add("-o,--output", options->output,
-           "OpenVDB file to write; - for stdout. Required without --dry-run")
+           "OpenVDB file to write, or NanoVDB file (.nvdb); - for OpenVDB on stdout. Required "
+           "without "
+           "--dry-run")
       .type("OUT.vdb")
       .group("Output");
   addResolutionOptions(command, options->conversion.resolution);
@@ -279,6 +309,9 @@ Action addConvert(CLI::App& app) {
                "Print an estimate of voxels, memory, levels and file size, within a factor of "
                "about 1.5, and write nothing")
       .group("Run");
+  for (const Option& option : command.options())
+    if (option.name() != "INPUT" && option.name() != "--output" && option.name() != "--compression")
+      options->meshOptions.push_back(option);
   addCommonOptions(command, options->common);
   return [options] { return runConvert(*options); };
 }

@@ -160,9 +160,9 @@ int runDiff(DiffArguments options) {
 }  // namespace
 
 Action addDiff(CLI::App& app) {
-  const Command command(app, "diff", "Compare two .vdb files");
+  const Command command(app, "diff", "Compare two .vdb or .nvdb files");
   const auto options = std::make_shared<DiffArguments>();
-  command.add("A", options->a, "OpenVDB file").required();
+  command.add("A", options->a, "OpenVDB file (.vdb) or NanoVDB file (.nvdb)").required();
   command.add("B", options->b, "OpenVDB file to compare it with").required();
   command
       .add("--tolerance", options->diff.absoluteTolerance,

@@ -1,4 +1,4 @@
-// vox info: properties of a mesh, scene or .vdb file, and of the mesh after preparation.
+// vox info: properties of a mesh, scene or file of grids, and of the mesh after preparation.
 
 #include "apps/vox/command.h"
 #include "apps/vox/counted.h"
@@ -8,7 +8,7 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
 #include "libvox/inspect/summary.h"
-#include "libvox/io/input_file.h"
+#include "libvox/io/grid_file.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/request.h"
@@ -326,7 +326,7 @@ void print(const GridSummary& grid) {
 Json describe(const std::string& file, const InfoArguments& options) {
   Json all = {{"file", file}};
   if (!options.json) std::cout << file << '\n';
-  if (lowerExtension(file) == ".vdb") {
+  if (isGridFile(file)) {
     for (const GridSummary& grid : summarizeVdb(file)) {
       all["grids"].push_back(toJson(grid));
       if (!options.json) print(grid);
@@ -357,9 +357,13 @@ int runInfo(const InfoArguments& options) {
 }  // namespace
 
 Action addInfo(CLI::App& app) {
-  const Command command(app, "info", "Print the contents of meshes, scenes and .vdb files");
+  const Command command(app, "info",
+                        "Print the contents of meshes, scenes and .vdb or .nvdb files");
   const auto options = std::make_shared<InfoArguments>();
-  command.add("FILE", options->files, "Mesh, scene (.toml) or OpenVDB file (.vdb)").required();
+  command
+      .add("FILE", options->files,
+           "Mesh, scene (.toml), OpenVDB file (.vdb) or NanoVDB file (.nvdb)")
+      .required();
   command.addFlag("--json", options->json, "Print JSON");
   addScaleOption(command, options->scale);
   addBoundaryOption(command, options->boundary);

@@ -10,6 +10,7 @@
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/io/atomic_file.h"
+#include "libvox/io/grid_file.h"
 #include "libvox/io/input_file.h"
 #include "libvox/io/read_vdb.h"
 #include "libvox/io/write_png.h"
@@ -157,9 +158,9 @@ void write(const RenderArguments& options, const Image& image) {
 
 int runRender(const RenderArguments& options) {
   RenderOptions renderOptions = parse(options);
-  const bool isVdb = lowerExtension(options.input) == ".vdb";
+  const bool isVdb = isGridFile(options.input);
   refuse(isVdb ? options.meshOptions : options.gridOptions, options.input,
-         isVdb ? " is for meshes and scenes only" : " is for .vdb files only");
+         isVdb ? " is for meshes and scenes only" : " is for files of grids only");
   ProgressBar bar(!options.common.quiet);
   Progress progress(bar.callback());
   renderOptions.progress = &progress;
@@ -261,7 +262,9 @@ Action addRender(CLI::App& app) {
   const auto options = std::make_shared<RenderArguments>();
   command
       .add("INPUT", options->input,
-           "OpenVDB file (.vdb), scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb)")
+           "OpenVDB file (.vdb) or NanoVDB file (.nvdb), scene (.toml) or mesh (.obj .ply .off "
+           ".stl .om "
+           ".gltf .glb)")
       .required();
   command.add("-o,--output", options->output, "PNG file to write; - for stdout")
       .required()

@@ -1,11 +1,13 @@
-// OpenVDB files from any program. They are not trusted, unless their hash shows that libvox wrote
+// Files of grids from any program. They are not trusted, unless their hash shows that libvox wrote
 // them.
 
 #include "libvox/io/read_vdb.h"
 
 #include "libvox/core/error.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/io/grid_file.h"
 #include "libvox/io/input_file.h"
+#include "libvox/io/read_nvdb.h"
 #include "libvox/io/write_vdb.h"
 
 #include <openvdb/io/Stream.h>
@@ -57,8 +59,10 @@ openvdb::MetaMap read(const std::filesystem::path& file, const Visit& visit) {
   openvdb::initialize();
   openvdb::logging::setLevel(openvdb::logging::Level::Fatal);
   constexpr std::uintmax_t kMostWhole = std::uintmax_t{256} << 20U;
-  const bool onDemand = trusted || std::filesystem::file_size(file) > kMostWhole;
+  const bool nano = isNvdb(file);
+  const bool onDemand = trusted || (!nano && std::filesystem::file_size(file) > kMostWhole);
   try {
+    if (nano) return readNvdb(file, visit), openvdb::MetaMap();
     return onDemand ? readOnDemand(file, visit) : readWhole(file, visit);
   } catch (const Error&) {
     throw;
@@ -90,6 +94,7 @@ class Namer {
 
 bool isSoundOwnVdb(const std::filesystem::path& file) {
   requireInputFile(file);
+  if (isNvdb(file)) return false;
   requireVdb(file);
   std::ifstream stream(file, std::ios::binary);
   const VdbContent content = vdbContent(stream);

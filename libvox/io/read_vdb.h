@@ -22,13 +22,17 @@ struct VdbFile {
   std::shared_ptr<const openvdb::MetaMap> metadata;  ///< of the file
 };
 
-/// Reads a .vdb file from any program. Values are loaded on demand if libvox wrote the file and its
-/// hash is right, or if it is larger than 256 MiB; otherwise the whole file is read now.
-/// @throws InputError  the file is missing, OpenVDB cannot read it, or libvox wrote it and it is
-///   damaged
+/// Reads a .vdb or .nvdb file (isGridFile) from any program. NanoVDB files have no metadata,
+/// neither of the file nor of grids, and are read now. Of OpenVDB files values are loaded on demand
+/// if libvox wrote the file and its hash is right, or if it is larger than 256 MiB; otherwise the
+/// whole file is read now.
+/// @throws InputError  the file is missing, OpenVDB or NanoVDB cannot read it, or libvox wrote it
+/// and
+///   it is damaged
+/// @throws LimitError  a NanoVDB grid does not fit into memory
 VdbFile readVdb(const std::filesystem::path& file);
 
-/// Whether libvox wrote a file, and it is as it was written. Reads the whole file if so.
+/// Whether libvox wrote a .vdb file, and it is as it was written. Reads the whole file if so.
 /// @throws InputError  the file is missing or no OpenVDB file, or libvox wrote it and it is damaged
 bool isSoundOwnVdb(const std::filesystem::path& file);
 

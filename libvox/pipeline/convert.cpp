@@ -13,8 +13,8 @@
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/region.h"
 #include "libvox/io/atomic_file.h"
+#include "libvox/io/grid_file.h"
 #include "libvox/io/watched_stream.h"
-#include "libvox/io/write_vdb.h"
 #include "libvox/pipeline/colors.h"
 #include "libvox/pipeline/cut.h"
 #include "libvox/pipeline/grids.h"
@@ -484,23 +484,33 @@ std::vector<std::uint64_t> memoryOf(const Conversion& conversion) {
   return bytes;
 }
 
-void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress) {
+namespace {
+
+/// @param name  of the file, for its format
+void writeAs(const std::filesystem::path& name, std::iostream& stream, const Conversion& conversion,
+             Progress* progress) {
   openvdb::MetaMap metadata;
   metadata.insertMeta("creator", openvdb::StringMetadata(std::string("vox ") + version()));
   for (const auto& grid : conversion.grids)
     for (const char* key : {kGainMetadata, kEdgeMetadata})
       if (const auto value = (*grid)[key]) metadata.insertMeta(key, *value);
   if (progress == nullptr)
-    return writeVdb(stream, conversion.grids, metadata, conversion.compression);
+    return writeGridFile(stream, name, conversion.grids, metadata, conversion.compression);
   progress->beginLast("write");
   WatchedStream watched(*stream.rdbuf(), *progress, expectedBytes(conversion.grids));
-  writeVdb(watched, conversion.grids, metadata, conversion.compression);
+  writeGridFile(watched, name, conversion.grids, metadata, conversion.compression);
+}
+
+}  // namespace
+
+void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress) {
+  writeAs(".vdb", stream, conversion, progress);
 }
 
 void writeGrids(const std::filesystem::path& file, const Conversion& conversion, bool overwrite,
                 Progress* progress) {
   AtomicFile output(file, overwrite);
-  writeGrids(output.stream(), conversion, progress);
+  writeAs(file, output.stream(), conversion, progress);
   if (progress != nullptr) progress->check();
   output.commit();
 }

@@ -67,14 +67,15 @@ Estimate estimate(const Scene& scene, const Request& request, std::vector<std::s
 std::vector<std::string> namesOf(const Conversion& conversion);
 std::vector<std::uint64_t> memoryOf(const Conversion& conversion);
 
-/// Writes grids to a new file: complete or not at all, equal input giving equal bytes.
+/// Writes grids to a new file, .nvdb for NanoVDB's format: complete or not at all, equal input
+/// giving equal bytes.
 /// @param progress  that of the conversion, of which this is the last stage; or none
 /// @throws IoError  cannot be written, or exists and `overwrite` is false
 /// @throws Cancelled
 void writeGrids(const std::filesystem::path& file, const Conversion& conversion, bool overwrite,
                 Progress* progress = nullptr);
 
-/// The same to a stream that must be readable, writable, seekable and empty.
+/// The same in OpenVDB's format, to a stream that must be readable, writable, seekable and empty.
 void writeGrids(std::iostream& stream, const Conversion& conversion, Progress* progress = nullptr);
 
 }  // namespace vox
