@@ -197,23 +197,23 @@ grep -q 'metadata vox_version' stdout || fail "diff: .nvdb has metadata"
 expect 0 '' info jack.nvdb
 grep -q 'grid density: Tree_float_5_4_3, fog volume' stdout || fail "info: no density in .nvdb"
 expect 0 '' check jack.nvdb --mesh "$scenes/toy_jack.toml"
-expect 0 '' render jack.nvdb -o jack.png --size 64x64
-expect 0 'copy.nvdb: 2 grids' convert jack.vdb -o copy.nvdb
-cmp -s copy.nvdb jack.nvdb || fail "convert: .nvdb of a mesh and of its .vdb differ"
-expect 0 'copy.vdb: 2 grids' convert copy.nvdb -o copy.vdb --compression zip
-expect 0 '' diff --no-metadata copy.vdb jack.vdb
-expect 0 'copy.vdb: 2 grids' convert jack.vdb -o copy.vdb -f
-expect 0 '' diff copy.vdb jack.vdb
-expect 0 '' merge copy.nvdb jack.nvdb -o merged.vdb
-expect 0 '' diff --no-metadata merged.vdb jack.vdb
-expect 0 'like.vdb' convert "$scenes/toy_jack.toml" -o like.vdb --like jack.nvdb:density --grids density,mask
-expect 0 '' diff --no-metadata like.vdb jack.vdb
+expect 0 '' render jack.nvdb -o nvdb.png --size 64x64
+expect 0 'copied.nvdb: 2 grids' convert jack.vdb -o copied.nvdb
+cmp -s copied.nvdb jack.nvdb || fail "convert: .nvdb of a mesh and of its .vdb differ"
+expect 0 'copied.vdb: 2 grids' convert copied.nvdb -o copied.vdb --compression zip
+expect 0 '' diff --no-metadata copied.vdb jack.vdb
+expect 0 'copied.vdb: 2 grids' convert jack.vdb -o copied.vdb -f
+expect 0 '' diff copied.vdb jack.vdb
+expect 0 '' merge copied.nvdb jack.nvdb -o united.vdb
+expect 0 '' diff --no-metadata united.vdb jack.vdb
+expect 0 'likewise.vdb' convert "$scenes/toy_jack.toml" -o likewise.vdb --like jack.nvdb:density --grids density,mask
+expect 0 '' diff --no-metadata likewise.vdb jack.vdb
 for compression in blosc zip none; do
-  expect 0 '' convert jack.vdb -o copy.nvdb --compression $compression -f --threads 1
-  "$vox" convert -q jack.vdb -o other.nvdb --compression $compression -f
-  cmp -s copy.nvdb other.nvdb || fail ".nvdb of 1 thread differs"
-  expect 0 '' diff --no-metadata jack.vdb copy.nvdb
-  head -c 2000 copy.nvdb >cut.nvdb
+  expect 0 '' convert jack.vdb -o copied.nvdb --compression $compression -f --threads 1
+  "$vox" convert -q jack.vdb -o again.nvdb --compression $compression -f
+  cmp -s copied.nvdb again.nvdb || fail ".nvdb of 1 thread differs"
+  expect 0 '' diff --no-metadata jack.vdb copied.nvdb
+  head -c 2000 copied.nvdb >cut.nvdb
   expect 3 'cut.nvdb: is (truncated|damaged)' info cut.nvdb
   expect 3 'cut.nvdb: is (truncated|damaged)' convert cut.nvdb -o out.vdb
 done

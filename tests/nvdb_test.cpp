@@ -1,5 +1,6 @@
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/inspect/diff.h"
 #include "libvox/inspect/summary.h"
@@ -13,6 +14,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -230,6 +232,24 @@ TEST_CASE("what NanoVDB cannot hold is refused", "[nvdb]") {
 TEST_CASE("a stream that fails is an IoError of NanoVDB files, too", "[nvdb]") {
   std::fstream full("/dev/full", std::ios::in | std::ios::out | std::ios::binary);
   CHECK_THROWS_AS(writeNvdb(full, smallGrids(), Compression::kPlain), IoError);
+}
+
+TEST_CASE("a conversion can be cancelled while its NanoVDB file is written", "[nvdb]") {
+  const test::TemporaryFolder folder;
+  Progress* run = nullptr;
+  Progress progress(
+      [&](double, const char* stage) {
+        if (stage == std::string("write")) run->cancel();
+      },
+      std::chrono::nanoseconds(0));
+  run = &progress;
+  ConvertOptions options;
+  options.dim = 100;
+  options.volume.compression = Compression::kPlain;
+  options.run.progress = &progress;
+  const Conversion made = convert(test::oneObject(test::cube()), options);
+  CHECK_THROWS_AS(writeGrids(folder / "out.nvdb", made, false, &progress), Cancelled);
+  CHECK(folder.fileCount() == 0);
 }
 
 TEST_CASE("other files are not NanoVDB files", "[nvdb]") {

@@ -160,7 +160,7 @@ int runRender(const RenderArguments& options) {
   RenderOptions renderOptions = parse(options);
   const bool isVdb = isGridFile(options.input);
   refuse(isVdb ? options.meshOptions : options.gridOptions, options.input,
-         isVdb ? " is for meshes and scenes only" : " is for files of grids only");
+         isVdb ? " is for meshes and scenes only" : " is for .vdb and .nvdb files only");
   ProgressBar bar(!options.common.quiet);
   Progress progress(bar.callback());
   renderOptions.progress = &progress;

@@ -129,6 +129,8 @@ void writeNvdb(std::iostream& stream, const std::vector<openvdb::GridBase::Ptr>&
   const nanovdb::io::Codec codec = codecOf(compression.value_or(Compression::kBlosc));
   try {
     for (const auto& grid : grids) writeSegment(stream, *grid, codec);
+  } catch (const Error&) {  // Cancelled, say, by the stream
+    throw;
   } catch (const std::runtime_error&) {
     if (stream) throw;
     throw IoError("the output cannot be written; is the disk full?");
