@@ -14,5 +14,5 @@ set(CPACK_DEBIAN_VOX_PACKAGE_SHLIBDEPS ON)  # the libraries it is linked with
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libvox-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-  "libboost-iostreams-dev, libeigen3-dev, libhwy-dev, libjpeg62-turbo-dev, libopenmesh-dev, libopenvdb-dev, libpng-dev, libtbb-dev, libtomlplusplus-dev, libxxhash-dev, zlib1g-dev")
+  "libblosc-dev, libboost-iostreams-dev, libeigen3-dev, libhwy-dev, libjpeg62-turbo-dev, libopenmesh-dev, libopenvdb-dev, libpng-dev, libtbb-dev, libtomlplusplus-dev, libxxhash-dev, zlib1g-dev")
 include(CPack)
