@@ -95,6 +95,8 @@ TEST_CASE("a framed model fills the picture up to its margin, in the middle",
   for (const Vec3d& point : cloud()) {
     low = low.cwiseMin(whereSeen(camera, point));
     high = high.cwiseMax(whereSeen(camera, point));
+    CHECK(camera.place(point)[0] == Approx(whereSeen(camera, point).x()));
+    CHECK(camera.place(point)[1] == Approx(whereSeen(camera, point).y()));
   }
   constexpr double kMargin = 0.04;
   CHECK(low.z() > 0);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fails on an include that runs against the ranks of libvox/README.md:
-# core < mesh, options < grid < stages (which never include each other) < pipeline, inspect, render < apps < tests.
+# core < mesh, options < grid < stages (which never include each other) < pipeline, inspect, render < report < apps < tests.
 set -euo pipefail
 cd "$1"
 
@@ -11,8 +11,9 @@ rank() {
     libvox/grid) echo 2 ;;
     libvox/io | libvox/prepare | libvox/localize | libvox/subdivide | libvox/voxelize | libvox/foot | libvox/volume) echo 3 ;;
     libvox/pipeline | libvox/inspect | libvox/render) echo 4 ;;
-    apps/*) echo 5 ;;
-    tests | tests/*) echo 6 ;;
+    libvox/report) echo 5 ;;
+    apps/*) echo 6 ;;
+    tests | tests/*) echo 7 ;;
     *) echo "unknown folder $1: give it a rank in tests/layers.sh" >&2; exit 1 ;;
   esac
 }

@@ -12,10 +12,13 @@
 #include "libvox/inspect/components.h"
 #include "libvox/inspect/lint.h"
 #include "libvox/inspect/topology.h"
+#include "libvox/io/atomic_file.h"
+#include "libvox/io/input_file.h"
 #include "libvox/io/read_vdb.h"
 #include "libvox/options/option_text.h"
 #include "libvox/options/run_part.h"
 #include "libvox/pipeline/request.h"
+#include "libvox/report/check_report.h"
 #include "libvox/volume/joined_parts.h"
 
 #include <algorithm>
@@ -39,18 +42,22 @@ struct CheckArguments {
   std::string until;
   std::optional<double> weldTolerance;
   RunOptions run;
+  std::string report;
+  bool force = false;
   bool quiet = false;
   bool json = false;
 };
 
 /// Result of the check.
 struct Check {
-  std::string grid;  ///< whose voxels are checked; "" if there is none
+  openvdb::GridBase::Ptr voxels;  ///< those that are checked; null if there are none
+  std::string grid;               ///< name of their grid; "" if there is none
   std::uint64_t activeVoxels = 0;
   std::vector<Component> components;
   std::vector<Component> enclosed;
   std::vector<ObjectCheck> objects;
   std::vector<LintFinding> findings;
+  std::vector<VoxelIndex> places;  ///< of findings
 };
 
 std::vector<std::string> listOf(const std::string& text) {
@@ -184,11 +191,13 @@ void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
                      ": has holes (--alpha cut): a mesh can be held against whole grids only");
   const Scene scene = readScene(options.mesh, made.scale);
   check.objects = checkObjects(voxels, scene, resolve(scene, made), grid.voxelSize().x());
-  for (const ObjectCheck& object : check.objects)
-    if (object.separation.tunnels > 0)
-      check.findings.push_back({kTunnel, check.grid,
-                                object.name + ": " + separationText(object.separation) +
-                                    ": the voxels do not separate the sides of the surface"});
+  for (const ObjectCheck& object : check.objects) {
+    if (object.separation.tunnels == 0) continue;
+    check.findings.push_back({kTunnel, check.grid,
+                              object.name + ": " + separationText(object.separation) +
+                                  ": the voxels do not separate the sides of the surface"});
+    if (object.separation.first) check.places.push_back(*object.separation.first);
+  }
 }
 
 void checkLeaks(const openvdb::MaskTree& voxels, Check& check) {
@@ -199,6 +208,7 @@ void checkLeaks(const openvdb::MaskTree& voxels, Check& check) {
     text << "a space of " << space.voxels << " voxels at (" << x << ' ' << y << ' ' << z
          << ") is enclosed but for a hole of one or two voxels";
     check.findings.push_back({kLeak, check.grid, text.str()});
+    check.places.push_back(space.first);
   }
 }
 
@@ -209,6 +219,7 @@ Check checkFile(const CheckArguments& options) {
   const VdbFile file = readVdb(options.file);
   if (const auto grid = chooseGrid(file, options)) {
     const openvdb::MaskTree::Ptr voxels = topologyOf(*grid);
+    check.voxels = grid;
     check.grid = grid->getName();
     check.activeVoxels = grid->activeVoxelCount();
     check.components = activeComponents(*voxels);
@@ -281,8 +292,44 @@ void print(const CheckArguments& options, const Check& check) {
   std::cout << (faultCount(check) == 0 ? "no faults" : counted(faultCount(check), "fault")) << '\n';
 }
 
+/// The words of the command that makes the same check. Options of the surface that were given are
+/// in them only as far as they are texts of their own.
+std::vector<std::string> commandOf(const CheckArguments& options) {
+  std::vector<std::string> words = {"vox", "check", options.file};
+  for (const auto& [option, value] :
+       {std::pair("--mesh", options.mesh), std::pair("--grid", options.grid),
+        std::pair("--until", options.until), std::pair("--ignore", options.ignore)})
+    if (!value.empty()) words.insert(words.end(), {option, value});
+  return words;
+}
+
+void requireReport(const CheckArguments& options) {
+  if (options.report.empty()) return;
+  if (lowerExtension(options.report) != ".html")
+    throw UsageError(options.report + ": the file of --report must end in .html");
+  for (const std::string& input : {options.file, options.mesh})
+    if (!input.empty() && isSameFile(options.report, input))
+      throw UsageError(options.report + ": is the input " + input + "; choose another name");
+  requireWritable(options.report, options.force);
+}
+
+void writeReport(const CheckArguments& options, const Check& check) {
+  std::vector<std::string> notes;
+  for (const ObjectCheck& object : check.objects)
+    notes.push_back(object.name + ": " + separationText(object.separation) + '.');
+  AtomicFile file(options.report, options.force);
+  file.stream() << checkReport({options.file, commandOf(options), check.voxels, check.components,
+                                check.enclosed, notes, check.findings, check.places});
+  file.commit();
+}
+
 int runCheck(const CheckArguments& options) {
-  const Check check = onThreads(options.run.threads, [&] { return checkFile(options); });
+  requireReport(options);
+  const Check check = onThreads(options.run.threads, [&] {
+    Check found = checkFile(options);
+    if (!options.report.empty()) writeReport(options, found);
+    return found;
+  });
   if (options.json)
     std::cout << toJson(options, check).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   else if (!options.quiet)
@@ -334,6 +381,13 @@ Action addCheck(CLI::App& app) {
       .add("--ignore", options->ignore,
            "Faults and warnings that do not count, with commas; their names are below")
       .type("LIST")
+      .group("Output");
+  command
+      .add("--report", options->report,
+           "Write a page for people: what was found, with pictures. It needs no other file")
+      .type("OUT.html")
+      .group("Output");
+  command.addFlag("-f,--force", options->force, "Overwrite an existing output file")
       .group("Output");
   command.addFlag("--json", options->json, "Print JSON").group("Output");
   command.addFlag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")

@@ -9,7 +9,11 @@
 #include "libvox/core/error.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/input_file.h"
+#include "libvox/report/diff_report.h"
 
+#include <array>
+#include <charconv>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -25,6 +29,7 @@ struct DiffArguments {
   std::string grids;
   bool noMetadata = false;
   std::string output;
+  std::string report;
   bool force = false;
   bool quiet = false;
   bool json = false;
@@ -126,13 +131,50 @@ void print(const FileDiff& diff) {
 }
 
 void requireNames(const DiffArguments& options) {
-  if (options.output.empty()) return;
-  if (lowerExtension(options.output) != ".vdb")
-    throw UsageError(options.output + ": the file of --output must end in .vdb");
-  for (const std::string& input : {options.a, options.b})
-    if (isSameFile(options.output, input))
-      throw UsageError(options.output + ": is the input " + input + "; choose another name");
-  requireWritable(options.output, options.force);
+  const auto require = [&](const std::string& output, const char* option,
+                           const std::string& extension) {
+    if (output.empty()) return;
+    if (lowerExtension(output) != extension)
+      throw UsageError(output + ": the file of " + option + " must end in " + extension);
+    for (const std::string& input : {options.a, options.b})
+      if (isSameFile(output, input))
+        throw UsageError(output + ": is the input " + input + "; choose another name");
+    requireWritable(output, options.force);
+  };
+  require(options.output, "--output", ".vdb");
+  require(options.report, "--report", ".html");
+}
+
+std::string numberText(double number) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
+/// The words of the command that makes the same comparison.
+std::vector<std::string> commandOf(const DiffArguments& options) {
+  std::vector<std::string> words = {"vox", "diff", options.a, options.b};
+  const auto add = [&](const char* option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  if (options.diff.absoluteTolerance != 0)
+    add("--tolerance", numberText(options.diff.absoluteTolerance));
+  if (options.diff.relativeTolerance != 0)
+    add("--relative", numberText(options.diff.relativeTolerance));
+  if (!options.grids.empty()) add("--grids", options.grids);
+  if (options.noMetadata) words.emplace_back("--no-metadata");
+  return words;
+}
+
+void writeReport(const DiffArguments& options, const FileDiff& diff) {
+  const Comparison comparison{
+      options.a,
+      options.b,
+      options.diff,
+      {{std::filesystem::path(options.a).filename().string(), options.a, options.b, diff}},
+      commandOf(options)};
+  AtomicFile file(options.report, options.force);
+  file.stream() << diffReport(comparison);
+  file.commit();
 }
 
 int runDiff(DiffArguments options) {
@@ -143,6 +185,7 @@ int runDiff(DiffArguments options) {
   const FileDiff diff = diffVdb(options.a, options.b, options.diff);
   if (!options.output.empty())
     writeDifference(options.a, options.b, options.diff, options.output, options.force);
+  if (!options.report.empty()) writeReport(options, diff);
   if (options.json) {
     Json json = {{"a", options.a},
                  {"b", options.b},
@@ -184,6 +227,11 @@ Action addDiff(CLI::App& app) {
       .add("-o,--output", options->output,
            "Write the differences as grids: NAME_only_a, NAME_only_b, NAME_difference")
       .type("OUT.vdb")
+      .group("Output");
+  command
+      .add("--report", options->report,
+           "Write a page for people: what differs, with pictures. It needs no other file")
+      .type("OUT.html")
       .group("Output");
   command.addFlag("-f,--force", options->force, "Overwrite an existing output file")
       .group("Output");

@@ -1,10 +1,10 @@
 // Differences as grids, to look at.
 
+#include "libvox/inspect/difference_grids.h"
+
 #include "libvox/core/version.h"
-#include "libvox/grid/openvdb.h"
 #include "libvox/inspect/compared.h"
 #include "libvox/inspect/compared_types.h"
-#include "libvox/inspect/diff.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/write_vdb.h"
 
@@ -48,20 +48,17 @@ class DifferenceMaker {
   openvdb::FloatTree& tree_;
 };
 
-openvdb::GridBase::Ptr surplusOf(const openvdb::GridBase& a, const openvdb::GridBase& b,
-                                 const std::string& name) {
+openvdb::MaskGrid::Ptr surplusOf(const openvdb::GridBase& a, const openvdb::GridBase& b) {
   const openvdb::MaskTree::Ptr tree = topologyOf(a);
   tree->topologyDifference(*topologyOf(b));
   auto grid = openvdb::MaskGrid::create(tree);
-  grid->setName(name);
   grid->setTransform(a.transform().copy());
   return grid;
 }
 
-openvdb::GridBase::Ptr differenceGrid(const openvdb::GridBase& a, const openvdb::GridBase& b,
-                                      const Tolerance& tolerance, const std::string& name) {
+openvdb::FloatGrid::Ptr valueDifference(const openvdb::GridBase& a, const openvdb::GridBase& b,
+                                        const Tolerance& tolerance) {
   auto difference = openvdb::FloatGrid::create();
-  difference->setName(name);
   difference->setTransform(a.transform().copy());
   a.apply<ComparedTypes>([&](const auto& typedA) {
     using Tree = typename std::decay_t<decltype(typedA)>::TreeType;
@@ -75,21 +72,35 @@ openvdb::GridBase::Ptr differenceGrid(const openvdb::GridBase& a, const openvdb:
 
 }  // namespace
 
+DifferenceGrids differenceGrids(const openvdb::GridBase& a, const openvdb::GridBase& b,
+                                const DiffOptions& options) {
+  DifferenceGrids difference{surplusOf(a, b), surplusOf(b, a), nullptr};
+  difference.onlyB->setTransform(a.transform().copy());
+  if (a.type() == b.type() && !a.isType<openvdb::MaskGrid>())
+    difference.values = valueDifference(a, b, Tolerance(options));
+  return difference;
+}
+
 void writeDifference(const std::filesystem::path& a, const std::filesystem::path& b,
                      const DiffOptions& options, const std::filesystem::path& file,
                      bool overwrite) {
   const VdbFile fileA = readVdb(a);
   const VdbFile fileB = readVdb(b);
-  const Tolerance tolerance(options);
   openvdb::GridPtrVec grids;
   forEachPair(fileA, fileB, options,
               [&](const std::string& name, const openvdb::GridBase::Ptr& gridA,
                   const openvdb::GridBase::Ptr& gridB) {
                 if (!gridA || !gridB) return;
-                grids.push_back(surplusOf(*gridA, *gridB, name + "_only_a"));
-                grids.push_back(surplusOf(*gridB, *gridA, name + "_only_b"));
-                if (gridA->type() == gridB->type() && !gridA->isType<openvdb::MaskGrid>())
-                  grids.push_back(differenceGrid(*gridA, *gridB, tolerance, name + "_difference"));
+                const DifferenceGrids difference = differenceGrids(*gridA, *gridB, options);
+                difference.onlyB->setTransform(gridB->transform().copy());
+                const auto keep = [&](const openvdb::GridBase::Ptr& grid, const char* what) {
+                  if (!grid) return;
+                  grid->setName(name + what);
+                  grids.push_back(grid);
+                };
+                keep(difference.onlyA, "_only_a");
+                keep(difference.onlyB, "_only_b");
+                keep(difference.values, "_difference");
               });
   openvdb::MetaMap metadata;
   metadata.insertMeta("creator", openvdb::StringMetadata(std::string("vox ") + version()));

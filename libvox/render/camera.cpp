@@ -117,6 +117,13 @@ Sight Camera::through(double x, double y) const {
   return {origin, (axes.forward + across).normalized()};
 }
 
+std::array<double, 2> Camera::place(const Vec3d& point) const {
+  const Vec3d away = point - origin;
+  const double depth = projection == Projection::kOrthographic ? 1 : away.dot(axes.forward);
+  return {(1 + away.dot(axes.right) / (depth * halfWidth)) / 2,
+          (1 - away.dot(axes.up) / (depth * halfHeight)) / 2};
+}
+
 Framing::Framing(const View& view, UpAxis up, Projection projection, double aspect)
     : axes_(axesOf(view, up)), projection_(projection), aspect_(aspect) {
   most_.fill(-std::numeric_limits<double>::infinity());

@@ -56,6 +56,9 @@ struct Camera {
 
   /// @param x, y  0 .. 1 from the upper left corner of the picture
   Sight through(double x, double y) const;
+
+  /// Where a point of world space appears: x and y of through().
+  std::array<double, 2> place(const Vec3d& point) const;
 };
 
 /// Finds the camera that shows all points as large as possible, in the middle, with a margin.

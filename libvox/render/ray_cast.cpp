@@ -205,7 +205,30 @@ class LevelSetCaster : public RayCaster {
   std::shared_ptr<const RootBoxes<openvdb::FloatTree>> boxes_;
 };
 
+/// Sets components to 0 that are rounding errors.
+Vec3d withoutRounding(Vec3d direction) {
+  constexpr double kNothing = 1e-12;
+  for (double& component : direction)
+    if (std::abs(component) < kNothing) component = 0;
+  return direction;
+}
+
+openvdb::Vec3d asOpenVdb(const Vec3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
 }  // namespace
+
+IndexRay indexRay(const Vec3d& origin, const Vec3d& direction, double start, double end) {
+  return {asOpenVdb(origin), asOpenVdb(withoutRounding(direction)), start, end};
+}
+
+IndexRay indexRay(const Sight& sight, const openvdb::math::MapBase& toWorld) {
+  const openvdb::Vec3d direction = toWorld.applyInverseJacobian(asOpenVdb(sight.direction));
+  const openvdb::Vec3d eye = toWorld.applyInverseMap(asOpenVdb(sight.origin));
+  const Vec3d unit = Vec3d(direction[0], direction[1], direction[2]).normalized();
+  return indexRay(Vec3d(eye[0], eye[1], eye[2]), unit);
+}
 
 std::unique_ptr<RayCaster> voxelCaster(const openvdb::MaskTree& voxels) {
   return std::make_unique<VoxelCaster>(voxels);

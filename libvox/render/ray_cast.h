@@ -2,9 +2,11 @@
 
 #include "libvox/core/types.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/render/camera.h"
 
 #include <openvdb/math/Ray.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -12,6 +14,13 @@ namespace vox {
 
 /// A ray in index space; times are multiples of its direction.
 using IndexRay = openvdb::math::Ray<double>;
+
+/// Components of the direction that are rounding errors become 0: a ray along an axis stays on it.
+IndexRay indexRay(const Vec3d& origin, const Vec3d& direction,
+                  double start = openvdb::math::Delta<double>::value(),
+                  double end = std::numeric_limits<double>::max());
+/// A line of sight in index space; its direction is a unit vector there.
+IndexRay indexRay(const Sight& sight, const openvdb::math::MapBase& toWorld);
 
 struct RayHit {
   double time = 0;

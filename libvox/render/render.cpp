@@ -123,8 +123,9 @@ class ViewPainter {
   Image& image_;
 };
 
-Image renderViews(const VisibleGrids& visible, const RenderOptions& options, Progress& progress) {
-  const Sheet sheet(options.views.size());
+Image paintViews(const VisibleGrids& visible, std::span<const Camera> cameras,
+                 const RenderOptions& options, Progress& progress) {
+  const Sheet sheet(cameras.size());
   const int width = sheet.columns * options.width;
   const int height = sheet.rows * options.height;
   const MemoryBudget budget(options.maxMemory);
@@ -135,7 +136,6 @@ Image renderViews(const VisibleGrids& visible, const RenderOptions& options, Pro
   progress.beginLast("render");
   Image image(width, height);
   std::fill(image.pixels.begin(), image.pixels.end(), options.background);
-  const std::vector<Camera> cameras = camerasOf(visible, options);
   const auto surface =
       visible.voxels ? voxelCaster(*visible.voxels) : levelSetCaster(*visible.levelSet);
   const ViewPainter painter(visible, *surface, options, image);
@@ -172,11 +172,22 @@ void requireRenderable(const RenderOptions& options) {
   require("the number of occlusion rays", options.shading.occlusionRays, 0, kMostOcclusionRays);
 }
 
-Image render(const VisibleGrids& visible, const RenderOptions& options) {
-  requireRenderable(options);
+Image render(const VisibleGrids& visible, std::span<const Camera> cameras,
+             const RenderOptions& options) {
+  RenderOptions checked = options;
+  checked.views.resize(cameras.size());
+  requireRenderable(checked);
   Progress unwatched;
   Progress& progress = options.progress != nullptr ? *options.progress : unwatched;
-  return onThreads(options.threads, [&] { return renderViews(visible, options, progress); });
+  return onThreads(options.threads,
+                   [&] { return paintViews(visible, cameras, options, progress); });
+}
+
+Image render(const VisibleGrids& visible, const RenderOptions& options) {
+  requireRenderable(options);
+  const std::vector<Camera> cameras =
+      onThreads(options.threads, [&] { return camerasOf(visible, options); });
+  return render(visible, cameras, options);
 }
 
 Image render(std::span<const std::shared_ptr<openvdb::GridBase>> grids, const VisibleOptions& what,

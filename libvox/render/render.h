@@ -47,6 +47,10 @@ void requireRenderable(const RenderOptions& options);
 /// @throws Cancelled   options.progress is cancelled; its stage is "render"
 Image render(const VisibleGrids& visible, const RenderOptions& options);
 
+/// The same with a camera for each view: views, up and projection of the options do not count.
+Image render(const VisibleGrids& visible, std::span<const Camera> cameras,
+             const RenderOptions& options);
+
 /// Pictures of the grids of a file: of visibleGrids(grids, what), which may throw besides.
 Image render(std::span<const std::shared_ptr<openvdb::GridBase>> grids, const VisibleOptions& what,
              const RenderOptions& options);

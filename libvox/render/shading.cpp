@@ -39,14 +39,6 @@ Vec3d fromOpenVdb(const Vector& v) {
   return Vec3d(v[0], v[1], v[2]);
 }
 
-/// Sets components to 0 that are rounding errors: a ray along an axis stays on it.
-Vec3d cleaned(Vec3d direction) {
-  constexpr double kNothing = 1e-12;
-  for (double& component : direction)
-    if (std::abs(component) < kNothing) component = 0;
-  return direction;
-}
-
 /// The bits of k mirrored behind the point: 0, 1/2, 1/4, 3/4, ...
 double radicalInverse(std::uint32_t k) {
   double inverse = 0;
@@ -133,10 +125,10 @@ double Shader::skyAt(const IndexRay& ray, const RayHit& hit, const Vec3d& normal
   const Vec3d start = fromOpenVdb(ray(hit.time)) + kOcclusionStart * normal;
   double hidden = 0;
   for (int k = 0; k < count; ++k) {
-    const Vec3d direction = cleaned(
-        hemisphereDirection(normal, axes_.right, axes_.up, k * samples + sample, count * samples));
-    const IndexRay skyward(toOpenVdb(start), toOpenVdb(direction),
-                           openvdb::math::Delta<double>::value(), occlusionReach_);
+    const Vec3d direction =
+        hemisphereDirection(normal, axes_.right, axes_.up, k * samples + sample, count * samples);
+    const IndexRay skyward =
+        indexRay(start, direction, openvdb::math::Delta<double>::value(), occlusionReach_);
     const auto blocked = surface_->firstHit(skyward);
     if (!blocked) continue;
     const double distance = 1 - blocked->time / occlusionReach_;
@@ -146,13 +138,10 @@ double Shader::skyAt(const IndexRay& ray, const RayHit& hit, const Vec3d& normal
 }
 
 std::optional<Light> Shader::look(const Sight& sight, int sample, int samples) {
-  const Vec3d eye = fromOpenVdb(map_->applyInverseMap(toOpenVdb(sight.origin)));
-  const Vec3d direction =
-      cleaned(fromOpenVdb(map_->applyInverseJacobian(toOpenVdb(sight.direction))).normalized());
-  const IndexRay ray(toOpenVdb(eye), toOpenVdb(direction));
+  const IndexRay ray = indexRay(sight, *map_);
   const auto hit = surface_->firstHit(ray);
   if (!hit) return std::nullopt;
-  const Vec3d normalIndex = normalAt(*hit, direction);
+  const Vec3d normalIndex = normalAt(*hit, fromOpenVdb(ray.dir()));
   const Vec3d normal = fromOpenVdb(map_->applyIJT(toOpenVdb(normalIndex))).normalized();
   const Vec3d seen(normal.dot(axes_.right), normal.dot(axes_.up), -normal.dot(axes_.forward));
   const double sky = skyAt(ray, *hit, normalIndex, sample, samples);

@@ -123,9 +123,8 @@ openvdb::FloatGrid::ConstPtr asFloats(const GridBase::Ptr& grid) {
   return std::make_shared<openvdb::FloatGrid>(*openvdb::gridPtrCast<openvdb::DoubleGrid>(grid));
 }
 
-/// Boxes of leaves and active tiles.
 template <class TreeT>
-std::vector<openvdb::CoordBBox> boxesOf(const TreeT& tree) {
+std::vector<openvdb::CoordBBox> boxesOfTree(const TreeT& tree) {
   std::vector<openvdb::CoordBBox> boxes;
   boxes.reserve(tree.leafCount());
   for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
@@ -214,10 +213,10 @@ VisibleGrids look(std::span<const GridBase::Ptr> grids, const VisibleOptions& op
                        " has voxels that are no cubes; resample it first");
     visible.levelSet = asFloats(shown);
     visible.levelSet->tree().readNonresidentBuffers();
-    visible.boxes = boxesOf(visible.levelSet->tree());
+    visible.boxes = boxesOfTree(visible.levelSet->tree());
   } else {
     visible.voxels = solidVoxels(shown, options.threshold);
-    visible.boxes = boxesOf(*visible.voxels);
+    visible.boxes = boxesOfTree(*visible.voxels);
   }
   if (visible.boxes.empty()) throw InputError("grid " + shown->getName() + " has no active voxels");
   requireInRange(visible.boxes, shown->getName());
@@ -231,6 +230,10 @@ VisibleGrids look(std::span<const GridBase::Ptr> grids, const VisibleOptions& op
 }
 
 }  // namespace
+
+std::vector<openvdb::CoordBBox> boxesOf(const openvdb::MaskTree& voxels) {
+  return boxesOfTree(voxels);
+}
 
 VisibleGrids visibleGrids(std::span<const GridBase::Ptr> grids, const VisibleOptions& options) {
   try {

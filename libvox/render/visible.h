@@ -18,6 +18,9 @@ struct VisibleGrids {
   std::vector<openvdb::CoordBBox> boxes;  ///< of the voxels that are shown, or near the surface
 };
 
+/// Boxes of the active voxels of each leaf, and of active tiles.
+std::vector<openvdb::CoordBBox> boxesOf(const openvdb::MaskTree& voxels);
+
 /// Chooses what to show: the grid of the given name, or else the first that has voxels of `mask`,
 /// `density`, `surface` and then any other of numbers. A level set shows its zero isosurface; of
 /// anything else, active voxels above the threshold are solid. Normals are those of `normal` or

@@ -1,0 +1,158 @@
+// Differences as text and tables of HTML.
+
+#include "libvox/report/diff_tables.h"
+
+#include "libvox/report/html.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vox {
+namespace {
+
+std::string plural(std::uint64_t number, const std::string& noun) {
+  return grouped(number) + ' ' + noun + (number == 1 ? "" : "s");
+}
+
+std::string at(const std::optional<VoxelIndex>& voxel) {
+  if (!voxel) return {};
+  const auto& [x, y, z] = *voxel;
+  return " The first of them is voxel (" + std::to_string(x) + ' ' + std::to_string(y) + ' ' +
+         std::to_string(z) + ").";
+}
+
+std::string verdict(bool same) {
+  return same ? "<span class=\"good\">same</span>" : "<span class=\"bad\">differs</span>";
+}
+
+std::string number(const std::string& text) {
+  return "<td class=\"number\">" + text + "</td>";
+}
+
+std::string rowOf(const GridDiff& grid) {
+  std::string row = "<tr><td>" + escaped(grid.name) + "</td><td class=\"word\">";
+  if (!grid.inA || !grid.inB)
+    row += std::string("<span class=\"bad\">only in ") + (grid.inA ? 'A' : 'B') + "</span>";
+  else
+    row += verdict(grid.same());
+  row += "</td>";
+  const TopologyDiff& topology = grid.topology;
+  row += number(grid.inA ? grouped(topology.active[0]) : "");
+  row += number(grid.inB ? grouped(topology.active[1]) : "");
+  if (!grid.inA || !grid.inB)
+    return row + number("") + number("") + number("") + number("") + number("") + "</tr>\n";
+  row += number(grouped(topology.onlyA)) + number(grouped(topology.onlyB)) +
+         number(shortNumber(topology.distance));
+  if (grid.values)
+    row += number(grouped(grid.values->differing)) + number(shortNumber(grid.values->largest));
+  else
+    row += number("") + number("");
+  return row + "</tr>\n";
+}
+
+std::string textTable(const std::vector<TextDiff>& texts, const std::string& what) {
+  if (texts.empty()) return {};
+  const auto cell = [](const std::string& text) {
+    return "<td>" + (text.empty() ? "<span class=\"soft\">none</span>" : escaped(text)) + "</td>";
+  };
+  std::string html = "<div class=\"table\"><table><thead><tr><th scope=\"col\">" + what +
+                     "</th><th scope=\"col\">A</th><th scope=\"col\">B</th></tr></thead><tbody>\n";
+  for (const TextDiff& text : texts)
+    html += "<tr><td>" + escaped(text.what) + "</td>" + cell(text.a) + cell(text.b) + "</tr>\n";
+  return html + "</tbody></table></div>\n";
+}
+
+std::string topologyText(const TopologyDiff& topology) {
+  if (topology.same()) return {};
+  const std::string apart = std::isfinite(topology.distance)
+                                ? " They lie up to " + shortNumber(topology.distance) +
+                                      (topology.distance == 1 ? " voxel" : " voxels") +
+                                      " away from the other grid."
+                                : " The other grid has no voxels.";
+  return "<p>Topology: " + plural(topology.onlyA, "voxel") + " only in A, " +
+         plural(topology.onlyB, "voxel") + " only in B." + apart + at(topology.first) + "</p>\n";
+}
+
+std::string valueText(const ValueDiff& values) {
+  std::string html;
+  if (values.differing > 0)
+    html += "<p>Values: " + grouped(values.differing) + " of " + grouped(values.compared) +
+            " differ, by up to " + shortNumber(values.largest) + ", root mean square " +
+            shortNumber(values.rms) + '.' + at(values.first) + "</p>\n";
+  if (values.inactiveDiffering > 0)
+    html += "<p>Values: " + plural(values.inactiveDiffering, "inactive voxel") + " differ.</p>\n";
+  return html;
+}
+
+const char* stateOf(const ComparedFiles& file) {
+  if (file.a.empty()) return "only in B";
+  if (file.b.empty()) return "only in A";
+  return file.diff.same() ? "same" : "differs";
+}
+
+std::uint64_t differingGrids(const FileDiff& diff) {
+  return static_cast<std::uint64_t>(std::count_if(
+      diff.grids.begin(), diff.grids.end(), [](const GridDiff& grid) { return !grid.same(); }));
+}
+
+}  // namespace
+
+std::string verdictOf(const Comparison& comparison) {
+  if (comparison.files.size() != 1) {
+    const auto differing = static_cast<std::uint64_t>(
+        std::count_if(comparison.files.begin(), comparison.files.end(),
+                      [](const ComparedFiles& file) { return !file.same(); }));
+    if (differing == 0) return plural(comparison.files.size(), "file") + " compared.";
+    return grouped(differing) + " of " + plural(comparison.files.size(), "file") +
+           " differ or are in one folder only.";
+  }
+  const FileDiff& diff = comparison.files.front().diff;
+  const std::uint64_t differing = differingGrids(diff);
+  if (diff.same()) return plural(diff.grids.size(), "grid") + " compared.";
+  std::string text = grouped(differing) + " of " + plural(diff.grids.size(), "grid") +
+                     (differing == 1 ? " differs" : " differ");
+  if (!diff.metadata.empty())
+    text += differing > 0 ? ", and the metadata of the file" : ", but the metadata of the file";
+  return text + '.';
+}
+
+std::string indexOf(const Comparison& comparison) {
+  std::string html =
+      "<div class=\"table\"><table><thead><tr><th scope=\"col\">file</th>"
+      "<th scope=\"col\">verdict</th><th scope=\"col\">grids that "
+      "differ</th></tr></thead><tbody>\n";
+  for (std::size_t i = 0; i < comparison.files.size(); ++i) {
+    const ComparedFiles& file = comparison.files[i];
+    const std::string name = escaped(file.name);
+    html += "<tr><td>" +
+            (file.same() ? name : "<a href=\"#file-" + std::to_string(i) + "\">" + name + "</a>") +
+            "</td><td class=\"word\"><span class=\"" + (file.same() ? "good" : "bad") + "\">" +
+            stateOf(file) + "</span></td>" + number(grouped(differingGrids(file.diff))) + "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string tablesOf(const ComparedFiles& file) {
+  if (file.a.empty() || file.b.empty())
+    return std::string("<p class=\"bad\">This file is only in ") + (file.a.empty() ? 'B' : 'A') +
+           ".</p>\n";
+  std::string html =
+      "<div class=\"table\"><table><thead><tr><th scope=\"col\">grid</th>"
+      "<th scope=\"col\">verdict</th>";
+  for (const char* head : {"voxels in A", "voxels in B", "only in A", "only in B",
+                           "distance, voxels", "values that differ", "by up to"})
+    html += std::string("<th scope=\"col\" class=\"number\">") + head + "</th>";
+  html += "</tr></thead><tbody>\n";
+  for (const GridDiff& grid : file.diff.grids) html += rowOf(grid);
+  return html + "</tbody></table></div>\n" + textTable(file.diff.metadata, "metadata of the file");
+}
+
+std::string factsOf(const GridDiff& grid) {
+  if (!grid.inA || !grid.inB)
+    return std::string("<p class=\"bad\">This grid is only in ") + (grid.inA ? 'A' : 'B') +
+           ".</p>\n";
+  return topologyText(grid.topology) + (grid.values ? valueText(*grid.values) : "") +
+         textTable(grid.properties, "property") + textTable(grid.metadata, "metadata");
+}
+
+}  // namespace vox

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "libvox/grid/openvdb.h"
+#include "libvox/inspect/diff.h"
+#include "libvox/inspect/difference_grids.h"
+#include "libvox/render/visible.h"
+
+namespace vox {
+
+/// How a voxel of two grids differs.
+enum class VoxelChange { kUnchanged, kOnlyA, kOnlyB, kValue };
+
+/// The voxels of two grids, coloured by what differs. Of level sets only voxels within one voxel of
+/// the surface are shown: their bands hide each other. If no such voxel differs, all are shown.
+class DifferenceLook {
+ public:
+  /// @throws InputError  a type that cannot be compared
+  DifferenceLook(const openvdb::GridBase& a, const openvdb::GridBase& b,
+                 const DiffOptions& options);
+
+  const openvdb::MaskTree& all() const { return *all_; }
+  const openvdb::MaskTree& differing() const { return *differing_; }
+  /// |a - b| where both are active and differ; null if there are no values.
+  const openvdb::FloatTree* values() const;
+  /// The largest finite difference of values.
+  double largest() const { return largest_; }
+
+  VoxelChange changeAt(const openvdb::Coord& voxel) const;
+  /// Difference of the values at a voxel relative to the largest, 0 .. 1.
+  double valuePart(const openvdb::Coord& voxel) const;
+
+  /// True if no values differ, and the same voxels are active in one grid only.
+  bool looksLike(const DifferenceLook& other) const;
+
+  /// For pictures: the voxels of a tree in their colours.
+  /// @param box  those within it only; empty: all
+  VisibleGrids visible(const openvdb::MaskTree& voxels, const openvdb::CoordBBox& box) const;
+
+ private:
+  DifferenceGrids difference_;
+  openvdb::MaskTree::Ptr all_;
+  openvdb::MaskTree::Ptr differing_;
+  double largest_ = 0;
+};
+
+}  // namespace vox

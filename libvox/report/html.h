@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace vox {
+
+/// Any text as text of HTML, also within attributes: characters with a meaning become entities;
+/// control characters and bytes that are no UTF-8 become the replacement character.
+std::string escaped(std::string_view text);
+
+/// Bytes as a data URI. Source: RFC 2397, RFC 4648.
+/// @param type  such as image/png
+std::string dataUri(std::string_view bytes, std::string_view type);
+std::string base64(std::string_view bytes);
+
+/// A number as people read it: 12,345,678.
+std::string grouped(std::uint64_t number);
+/// A number in at most six digits.
+std::string shortNumber(double number);
+
+}  // namespace vox
