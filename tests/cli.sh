@@ -978,6 +978,13 @@ assert code == 130 and not os.path.exists("bar.png"), (code, output)
 assert not [name for name in os.listdir() if name.endswith(".part")]
 PY
 
+# With --progress, lines for programs: each percent once, none goes back; also with --quiet.
+"$vox" convert "$scenes/cube.toml" -o lines.vdb --dim 1000 --progress --quiet 2>stderr || fail "--progress"
+percents=$(sed -nE 's/^vox: ([0-9]+)% (prepare|surface|grids|write)$/\1/p' stderr)
+[ "$(wc -l <stderr)" -eq "$(wc -w <<<"$percents")" ] || fail "--progress: other lines: $(cat stderr)"
+[ "$(sort -nu <<<"$percents")" = "$percents" ] || fail "--progress: $percents"
+[ "$(tail -n 1 <<<"$percents")" -eq 100 ] || fail "--progress does not end at 100%"
+
 # A signal leaves the target as it was. (Background jobs of a script ignore SIGINT.)
 echo old >kept.vdb
 "$vox" convert "$scenes/toy_jack.toml" -o kept.vdb --force --dim 3000 2>stderr &

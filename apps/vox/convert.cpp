@@ -187,7 +187,7 @@ void shareVoxelSize(const ConvertArguments& options, const std::vector<Frame>& f
 }
 
 void runFrame(const ConvertArguments& options, const Frame& frame, ConvertOptions convertOptions) {
-  ProgressBar bar(!options.common.quiet);
+  ProgressBar bar(options.common);
   const Stopwatch reading;
   Scene scene = readFrame(frame, convertOptions);
   const double readSeconds = reading.seconds();
@@ -312,6 +312,7 @@ Action addConvert(CLI::App& app) {
   for (const Option& option : command.options())
     if (option.name() != "INPUT" && option.name() != "--output" && option.name() != "--compression")
       options->meshOptions.push_back(option);
+  addProgressOption(command, options->common);
   addCommonOptions(command, options->common);
   return [options] { return runConvert(*options); };
 }

@@ -93,6 +93,14 @@ void addCommonOptions(const Command& command, CommonOptions& common) {
       .group("Run");
 }
 
+void addProgressOption(const Command& command, CommonOptions& common) {
+  command
+      .addFlag("--progress", common.progressLines,
+               "Print the progress on stderr as lines such as 'vox: 37% write', for programs that "
+               "start vox. A sequence starts at 0% with each file")
+      .group("Run");
+}
+
 void addResolutionOptions(const Command& command, ResolutionOptions& resolution) {
   const Option dim =
       command

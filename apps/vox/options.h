@@ -16,8 +16,12 @@ struct CommonOptions {
   bool force = false;
   bool quiet = false;
   bool verbose = false;
+  bool progressLines = false;  ///< of commands with addProgressOption
 };
 void addCommonOptions(const Command& command, CommonOptions& common);
+
+/// --progress.
+void addProgressOption(const Command& command, CommonOptions& common);
 
 /// --threads and --max-memory.
 void addRunOptions(const Command& command, RunOptions& run);

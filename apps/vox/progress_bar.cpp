@@ -1,6 +1,8 @@
-// A bar of text.
+// A bar of text, or lines.
 
 #include "apps/vox/progress_bar.h"
+
+#include "apps/vox/options.h"
 
 #include <cmath>
 #include <cstdio>
@@ -20,11 +22,20 @@ bool onTerminal() {
 
 }  // namespace
 
-ProgressBar::ProgressBar(bool wanted) : wanted_(wanted && onTerminal()) {}
+ProgressBar::ProgressBar(const CommonOptions& options)
+    : isBar_(!options.quiet && onTerminal()), isLines_(options.progressLines) {}
 
 Progress::Callback ProgressBar::callback() {
-  if (!wanted_) return {};
+  if (isLines_) return [this](double fraction, const char* stage) { print(fraction, stage); };
+  if (!isBar_) return {};
   return [this](double fraction, const char* stage) { draw(fraction, stage); };
+}
+
+void ProgressBar::print(double fraction, const char* stage) {
+  const int percent = static_cast<int>(std::floor(fraction * 100));
+  if (percent == printedPercent_) return;
+  printedPercent_ = percent;
+  std::fprintf(stderr, "vox: %d%% %s\n", percent, stage);
 }
 
 void ProgressBar::draw(double fraction, const char* stage) {

@@ -161,7 +161,7 @@ int runRender(const RenderArguments& options) {
   const bool isVdb = isGridFile(options.input);
   refuse(isVdb ? options.meshOptions : options.gridOptions, options.input,
          isVdb ? " is for meshes and scenes only" : " is for .vdb and .nvdb files only");
-  ProgressBar bar(!options.common.quiet);
+  ProgressBar bar(options.common);
   Progress progress(bar.callback());
   renderOptions.progress = &progress;
   ConvertOptions convertOptions = parseConversion(options.conversion, options.common.run);
@@ -273,6 +273,7 @@ Action addRender(CLI::App& app) {
   addPictureOptions(command, *options);
   addGridOptions(command, *options);
   addMeshOptions(command, *options);
+  addProgressOption(command, options->common);
   addCommonOptions(command, options->common);
   return [options] { return runRender(*options); };
 }

@@ -72,7 +72,7 @@ int runSubdivide(const SubdivideArguments& options) {
   formatOf(options.output);  // refuses others
   const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
                                           options.dropComponents, options.strict};
-  ProgressBar bar(!options.common.quiet);
+  ProgressBar bar(options.common);
   const Scene scene = onThreads(options.common.run.threads,
                                 [&] { return readScene(options.input, options.scale); });
   requireOutput(options.output, options.common, scene);
@@ -122,6 +122,7 @@ Action addSubdivide(CLI::App& app) {
   addWeldOption(command, options->weldTolerance);
   addDropOption(command, options->dropComponents);
   addStrictOption(command, options->strict);
+  addProgressOption(command, options->common);
   addCommonOptions(command, options->common);
   return [options] { return runSubdivide(*options); };
 }
