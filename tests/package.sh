@@ -14,6 +14,7 @@ dpkg-deb --contents libvox-dev_*.deb | grep usr/include/libvox/pipeline/convert.
 dpkg-deb --extract vox_*.deb root
 root/usr/bin/vox convert "$scenes/torus.toml" -o torus.vdb --dim 30 --verify
 [ -x root/usr/share/vox/cluster/slurm.sh ]
+python3 -m zipfile -l root/usr/share/vox/blender/vox_addon.zip | grep vox_addon/blender_manifest.toml
 gzip -dc root/usr/share/man/man1/vox.1.gz | grep '^.SS vox convert'
 
 # Completion: commands, options, values.

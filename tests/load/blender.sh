@@ -36,9 +36,11 @@ script, vdb, picture = sys.argv[-3:]
 spec = importlib.util.spec_from_file_location("vox_import", script)
 vox_import = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(vox_import)
-vox_import.make_way()
+addon = vox_import.load_addon()
+addon.register()
+addon.framing.make_way()
 assert "Cube" not in bpy.data.objects
-volume = vox_import.import_vdb(vdb)
+volume = addon.import_volume.import_vdb(vdb)
 assert volume.type == "VOLUME"
 grids = volume.data.grids
 found = {grid.name: (grid.data_type, grid.channels) for grid in grids}
@@ -82,7 +84,7 @@ assert kinds >= {
     ("part", "INT"),
 }, kinds
 
-vox_import.frame(volume)
+addon.framing.frame(volume)
 scene = bpy.context.scene
 scene.render.engine = "CYCLES"
 scene.render.resolution_x, scene.render.resolution_y = 320, 240
@@ -121,8 +123,8 @@ assert red + blue > 0.7 * len(solid) and min(red, blue) > 0.2 * len(solid), (red
 # Each part has a colour of its own, blue and green, with the grid part and without.
 volume.hide_render = True
 for name in "part", "split":
-    parts = vox_import.import_vdb(os.path.join(os.path.dirname(vdb), name + ".vdb"))
-    vox_import.frame(parts)
+    parts = addon.import_volume.import_vdb(os.path.join(os.path.dirname(vdb), name + ".vdb"))
+    addon.framing.frame(parts)
     shown = solid_in(rendered(os.path.join(os.path.dirname(vdb), name + ".png")))
     blue = sum(b > 1.3 * r and b > 1.2 * g for r, g, b in shown)
     green = sum(g > 1.1 * r and g > 1.3 * b for r, g, b in shown)
