@@ -109,6 +109,10 @@ made = "Seven_sides_1.vdb"
 assert same(made, "b.vdb")
 volume = bpy.context.object
 assert volume.matrix_world == Matrix.Identity(4)
+assert thing.hide_get()  # and yet it has its modifiers when it is converted again
+os.remove(made)
+assert bpy.ops.object.vox_convert() == {"FINISHED"} and bpy.context.object == volume
+assert same(made, "b.vdb") and thing.hide_get()
 
 # Materials: plain colours, an image that a node Mapping places, and the parts of the grid part.
 empty_scene()

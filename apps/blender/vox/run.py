@@ -7,6 +7,7 @@ import bpy
 from .child import VoxError
 
 POLL = 0.1  # seconds between two looks at vox
+MOST_WARNINGS = 5  # that are shown; each frame may have its own
 
 
 class Run:
@@ -98,8 +99,10 @@ class RunsConversion:
 
     def _finish(self, context, conversion):
         self.end(context, conversion)
-        for warning in conversion.warnings:
+        for warning in conversion.warnings[:MOST_WARNINGS]:
             self.report({"WARNING"}, warning)
+        if more := len(conversion.warnings[MOST_WARNINGS:]):
+            self.report({"WARNING"}, f"and {more} more warnings")
         self.report({"INFO"}, f"{conversion.path}: written")
         return {"FINISHED"}
 

@@ -1,5 +1,6 @@
 """What stays sharp of a mesh: edges and corners."""
 
+import bpy
 import numpy
 
 from .arrays import read
@@ -9,10 +10,10 @@ SHARP = 0.5  # creases from here on are sharp; vox knows nothing between sharp a
 
 def _creased(mesh, rows, attribute, layers):
     """Which rows (edges or vertices) have a crease: an attribute since Blender 4.0, a layer before."""
-    found = mesh.attributes.get(attribute)
-    if found is None:
-        old = getattr(mesh, layers, ())  # a function since Blender 4.0
-        found = old[0] if not callable(old) and len(old) else None
+    if bpy.app.version < (4, 0):
+        found = next(iter(getattr(mesh, layers)), None)
+    else:
+        found = mesh.attributes.get(attribute)
     return read(found.data, "value") >= SHARP if found else numpy.zeros(len(rows), bool)
 
 
