@@ -103,8 +103,9 @@ faces = faces_of(mesh)
 write_obj("b.obj", points, faces + [[v + size for v in face] for face in faces])
 with open("corners.txt", "w") as file:
     file.write(f"3 {3 + size}\n")
-vox("convert", "b.obj", "-o", "b.vdb", *TARGET, "--grids", "density,surface", "--voxel-size", "0.05", "--edge", "hard",
-    "--fill", "solid", "--interpolate", "interior", "--crease", "68.7549", "--corner-vertices", "corners.txt", "--band", "2,4")  # fmt: skip
+vox("convert", "b.obj", "-o", "b.vdb", *TARGET, "--grids", "density,surface", "--voxel-size", "0.05",
+    "--edge", "hard", "--fill", "solid", "--interpolate", "interior", "--crease", "68.7549",
+    "--corner-vertices", "corners.txt", "--band", "2,4")
 made = "Seven_sides_1.vdb"
 assert same(made, "b.vdb")
 volume = bpy.context.object
@@ -113,6 +114,18 @@ assert thing.hide_get()  # and yet it has its modifiers when it is converted aga
 os.remove(made)
 assert bpy.ops.object.vox_convert() == {"FINISHED"} and bpy.context.object == volume
 assert same(made, "b.vdb") and thing.hide_get()
+
+# A mirrored open mesh: its normals point to the side to which Blender's do.
+empty_scene()
+bpy.ops.mesh.primitive_grid_add(x_subdivisions=3, y_subdivisions=2)
+thing = bpy.context.object
+thing.matrix_world = Matrix.Diagonal((-1, 2, 1, 1))
+thing.vox.folder, thing.vox.dim, thing.vox.grids = os.getcwd(), 40, {"density", "normal"}
+assert bpy.ops.object.vox_convert() == {"FINISHED"}
+points = [moved(thing.matrix_world, v.co) for v in thing.data.vertices]
+write_obj("m.obj", points, [face[::-1] for face in faces_of(thing.data)])
+vox("convert", "m.obj", "-o", "m.vdb", *TARGET, "--grids", "density,normal", "--dim", "40")
+assert same("Grid.vdb", "m.vdb")
 
 # Materials: plain colours, an image that a node Mapping places, and the parts of the grid part.
 empty_scene()
@@ -150,7 +163,8 @@ assert bpy.ops.object.vox_convert() == {"FINISHED"}
 image.filepath_raw, image.file_format = os.path.abspath("board.png"), "PNG"
 image.save()
 with open("c.mtl", "w") as file:
-    file.write("newmtl Red\nKd 0.8 0.05 0.1\nnewmtl Painted\nmap_Kd -clamp on board.png\nnewmtl Viewport\nKd 0.1 0.2 0.7\n")
+    file.write("newmtl Red\nKd 0.8 0.05 0.1\nnewmtl Painted\nmap_Kd -clamp on board.png\n")
+    file.write("newmtl Viewport\nKd 0.1 0.2 0.7\n")
 lines = ["mtllib c.mtl"]
 for i, polygon in enumerate(mesh.polygons):
     lines.append("usemtl " + mesh.materials[i % 3].name)
@@ -159,8 +173,8 @@ for i, polygon in enumerate(mesh.polygons):
         lines.append(f"vt {3 * u + 0.25!r} {2 * v + 0.5!r}")
     lines.append("f " + " ".join(f"{v + 1}/{loop + 1}" for v, loop in zip(polygon.vertices, polygon.loop_indices)))
 write_obj("c.obj", [v.co for v in mesh.vertices], lines)
-vox("convert", "c.obj", "-o", "c.vdb", *TARGET, "--grids", "density,color,part", "--part-by", "material", "--edge", "hard",
-    "--dim", "60")  # fmt: skip
+vox("convert", "c.obj", "-o", "c.vdb", *TARGET, "--grids", "density,color,part", "--part-by", "material",
+    "--edge", "hard", "--dim", "60")
 assert same("Box.vdb", "c.vdb")
 
 # Colours of face corners: one for each face are kept, others are blended at the vertices.
@@ -191,11 +205,11 @@ assert same("Box.vdb", "e.vdb")
 # File > Export, and polygons as they are.
 thing.vox.use_smooth = False
 assert bpy.ops.export_scene.vox(filepath=os.path.abspath("export.vdb")) == {"FINISHED"}
-vox("convert", "e.obj", "-o", "f.vdb", "--grids", "density,color", "--edge", "hard", "--dim", "60", "--until", "levels=0")
+polygons = "--grids", "density,color", "--edge", "hard", "--dim", "60", "--until", "levels=0"
+vox("convert", "e.obj", "-o", "f.vdb", *polygons)
 assert same("export.vdb", "f.vdb")
 assert bpy.ops.export_scene.vox(filepath=os.path.abspath("export.nvdb"), target="HOUDINI") == {"FINISHED"}
-vox("convert", "e.obj", "-o", "g.nvdb", "--target", "houdini", "--up", "z", "--grids", "density,color", "--edge", "hard",
-    "--dim", "60", "--until", "levels=0")  # fmt: skip
+vox("convert", "e.obj", "-o", "g.nvdb", "--target", "houdini", "--up", "z", *polygons)
 assert same("export.nvdb", "g.nvdb")
 
 # File > Import.

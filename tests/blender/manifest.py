@@ -9,7 +9,8 @@ with open(os.path.join(os.path.dirname(vox_addon.__file__), "blender_manifest.to
     manifest = tomllib.load(file)
 info = vox_addon.bl_info
 assert manifest["version"] == "{}.{}.{}".format(*info["version"])
-assert (manifest["name"], manifest["tagline"], manifest["maintainer"]) == (info["name"], info["description"], info["author"])  # fmt: skip
+for theirs, ours in ("name", "name"), ("tagline", "description"), ("maintainer", "author"):
+    assert manifest[theirs] == info[ours], theirs
 assert manifest["schema_version"] == "1.0.0" and manifest["id"] == "vox" and manifest["type"] == "add-on"
 assert manifest["license"] == ["SPDX:MIT"] and manifest["blender_version_min"] == "4.2.0"
 for text in manifest["tagline"], *manifest["permissions"].values():

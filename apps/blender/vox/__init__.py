@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import convert, export_voxels, framing, import_volume, panel, preferences, run, settings
+from . import convert, export_voxels, import_volume, panel, preferences, run, settings
 
 # Read by Blender up to 4.1. Later versions read blender_manifest.toml.
 bl_info = {

@@ -3,6 +3,7 @@
 import os
 
 import bpy
+from mathutils import Matrix
 
 from .child import VoxError
 from .conversion import NUMBER, Conversion
@@ -16,7 +17,8 @@ def mesh_object(context):
     thing = context.object
     if thing is not None and thing.type == "VOLUME":
         thing = thing.vox.mesh
-    return thing if thing is not None and thing.type == "MESH" else None
+    is_there = thing is not None and thing.type == "MESH" and thing.name in context.view_layer.objects
+    return thing if is_there else None
 
 
 def volume_of(context, mesh):
@@ -50,14 +52,14 @@ class _Converts(RunsConversion):
         return Conversion(mesh, program(context), path, _target(), frames)
 
     def end(self, context, conversion):
-        mesh = context.scene.objects.get(conversion.name)
+        mesh = context.view_layer.objects.get(conversion.name)
         if mesh is None:
             raise VoxError(f"{conversion.name} is gone; its voxels are in {conversion.path}")
         volume = volume_of(context, mesh)
         if volume is None:
             volume = new_volume(f"{mesh.name} Voxels", mesh.users_collection[0])
             volume.vox.mesh = mesh
-        volume.matrix_world = conversion.place or mesh.matrix_world.Identity(4)
+        volume.matrix_world = conversion.place or Matrix.Identity(4)
         path = conversion.first_path()
         if mesh.vox.folder.startswith("//") and bpy.data.filepath:
             path = bpy.path.relpath(path)
@@ -89,5 +91,5 @@ class ConvertFrames(_Converts, bpy.types.Operator):
     def begin(self, context):
         scene = context.scene
         if scene.frame_start < 0:
-            raise VoxError("files of a sequence have no negative numbers; let the frames of the scene start at 0 or later")
+            raise VoxError("files have no negative numbers; let the frames of the scene start at 0 or later")
         return self._made(context, f".{NUMBER}.vdb", range(scene.frame_start, scene.frame_end + 1))

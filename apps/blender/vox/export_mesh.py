@@ -45,7 +45,8 @@ def write(mesh, place, settings, folder, name, warn):
             file.write(lines("v" + 6 * " %.17g" + "\n", numpy.hstack((points, looks.vertices))))
         if looks.uv is not None:
             file.write(lines("vt %.17g %.17g\n", looks.uv))
-        _write_faces(file, mesh, looks, _group_names(mesh, name))
+        is_mirrored = place is not None and place.determinant() < 0
+        _write_faces(file, mesh, looks, _group_names(mesh, name), -1 if is_mirrored else 1)
     scene = os.path.join(folder, f"{name}.toml")
     with open(scene, "w", encoding="utf-8") as file:
         file.write(f'[[object]]\nname = "{name}"\nmesh = "{name}.obj"\n')
@@ -61,8 +62,11 @@ def _group_names(mesh, name):
     return [bpy.path.clean_name(material.name) if material else name for material in mesh.materials] or [name]
 
 
-def _write_faces(file, mesh, looks, groups):
-    """The faces in their order, with a new group and material wherever these change."""
+def _write_faces(file, mesh, looks, groups, direction):
+    """The faces in their order, with a new group and material wherever these change.
+
+    @param direction  of the corners around a face: -1 turns the face over
+    """
     corners = read(mesh.loops, "vertex_index", kind=numpy.int32) + 1
     starts = read(mesh.polygons, "loop_start", kind=numpy.int32)
     sizes = read(mesh.polygons, "loop_total", kind=numpy.int32)
@@ -79,4 +83,4 @@ def _write_faces(file, mesh, looks, groups):
             if looks.faces is not None:
                 file.write(f"usemtl m{kind}\n")
             before = slot, kind
-        file.write(f"f {' '.join(texts[start:start + size])}\n")
+        file.write(f"f {' '.join(texts[start:start + size][::direction])}\n")

@@ -61,8 +61,9 @@ def import_vdb(path):
 def select(thing):
     for other in bpy.context.selected_objects:
         other.select_set(False)
-    thing.select_set(True)
-    bpy.context.view_layer.objects.active = thing
+    if thing.name in bpy.context.view_layer.objects:  # its collection may be excluded
+        thing.select_set(True)
+        bpy.context.view_layer.objects.active = thing
 
 
 class ImportVoxels(bpy.types.Operator):
