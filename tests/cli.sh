@@ -695,6 +695,7 @@ expect 2 'tolerance' diff torus.vdb torus.vdb --tolerance -1
 expect 3 'nowhere.vdb: no such file' diff torus.vdb nowhere.vdb
 expect 3 "neither file has a grid 'fog'" diff torus.vdb torus.vdb --grids fog
 
+
 # Merging: other files, and the parts of a conversion.
 "$vox" convert "$scenes/torus.toml" -o fog.vdb --dim 40 -q
 expect 0 'two.vdb: 2 grids with [0-9]+ active voxels from 2 files$' merge torus.vdb fog.vdb -o two.vdb
@@ -827,6 +828,14 @@ grep -q 'warning: OBJ has no colours of faces' stderr || fail "no word of colour
 expect 0 'vertices' subdivide faces.off -o faces.ply --levels 0
 "$vox" convert "$scenes/cube.obj" -o grey.vdb --dim 8 --grids color 2>stderr
 [ "$(grep -c 'warning: the input has no colours' stderr)" -eq 1 ] || fail "no word of missing colours: $(cat stderr)"
+
+expect 0 'red.glb: [0-9]+ vertices, [0-9]+ triangles' subdivide red.obj -o red.glb --levels 1
+expect 0 '' subdivide red.glb -o again.obj --levels 0 --force --weld 1e-6
+[ "$(grep -c '^v .* 1 0 0$' again.obj)" -ge 24 ] || fail "subdivide loses colours in glb"
+expect 0 'marble.glb' subdivide "$scenes/marble_jack.toml" -o marble.glb --levels 2
+expect 0 'again.glb' subdivide "$scenes/marble_jack.toml" -o again.glb --levels 2 --threads 1
+cmp -s marble.glb again.glb || fail "subdivide: .glb of 1 thread differs"
+expect 5 'marble.glb: exists' subdivide "$scenes/marble_jack.toml" -o marble.glb --levels 2
 
 # Scale: of the command line, else of the scene; recorded, so that check makes the same surface.
 expect 0 'active voxels of size 0.25' convert "$scenes/cube.obj" -o scaled.vdb --dim 8 --scale 1

@@ -7,13 +7,20 @@
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
 #include "libvox/io/atomic_file.h"
+#include "libvox/io/input_file.h"
 #include "libvox/io/watched_stream.h"
+#include "libvox/io/write_glb.h"
 #include "libvox/io/write_mesh.h"
 #include "libvox/pipeline/refine.h"
+#include "libvox/pipeline/shaded_refinement.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace vox::app {
 namespace {
@@ -39,37 +46,69 @@ std::uint64_t expectedBytes(const PolygonMesh& mesh) {
          kPerColor * (mesh.pointColors.size() + mesh.faceColors.size());
 }
 
+bool isGlb(const std::string& output) {
+  return lowerExtension(output) == ".glb";
+}
+
 MeshFormat formatOf(const std::string& output) {
   return isStdout(output) ? MeshFormat::kObj : meshFormatFor(output);
 }
 
 /// Warns of colours that the file does not get.
-void sayLostColors(const SubdivideArguments& options, const Scene& scene, const PolygonMesh& mesh) {
-  if (formatOf(options.output) == MeshFormat::kObj && !mesh.faceColors.empty())
-    say(options.common,
-        "warning: OBJ has no colours of faces, so they are dropped; .ply and .off keep them");
-  for (const SceneObject& object : scene.objects)
-    if (object.texture)
-      return say(options.common,
-                 "warning: textures are not written: a mesh file has no place for them");
+void noteLostColors(const SubdivideArguments& options, const Scene& scene, Refinement& refined) {
+  if (formatOf(options.output) == MeshFormat::kObj && !refined.mesh.faceColors.empty())
+    refined.warnings.emplace_back(
+        "OBJ has no colours of faces, so they are dropped; .ply, .off and .glb keep them");
+  const bool hasTexture =
+      std::any_of(scene.objects.begin(), scene.objects.end(),
+                  [](const SceneObject& object) { return object.texture.has_value(); });
+  if (hasTexture)
+    refined.warnings.emplace_back(
+        "textures are not written: the format has no place for them; .glb keeps them");
 }
 
-void write(const SubdivideArguments& options, const PolygonMesh& mesh, Progress& progress) {
+/// Calls writeTo(stream) with the stream of the output.
+template <class WriteTo>
+void write(const SubdivideArguments& options, std::uint64_t bytes, Progress& progress,
+           WriteTo&& writeTo) {
   progress.beginLast("write");
   if (isStdout(options.output)) {
-    WatchedStream stream(*std::cout.rdbuf(), progress, expectedBytes(mesh));
-    writeMesh(stream, mesh, formatOf(options.output));
+    WatchedStream stream(*std::cout.rdbuf(), progress, bytes);
+    writeTo(stream);
     return;
   }
   AtomicFile output(options.output, options.common.force);
-  WatchedStream stream(*output.stream().rdbuf(), progress, expectedBytes(mesh));
-  writeMesh(stream, mesh, formatOf(options.output));
+  WatchedStream stream(*output.stream().rdbuf(), progress, bytes);
+  writeTo(stream);
   progress.check();
   output.commit();
 }
 
+/// What was written, for messages.
+struct Written {
+  std::uint64_t vertices = 0, faces = 0;
+  std::vector<std::string> warnings;
+};
+
+Written writeShaded(const SubdivideArguments& options, const Scene& scene,
+                    const PreparationOptions& preparation, const RunOptions& run) {
+  const ShadedRefinement refined = shadedRefinement(scene, options.levels, preparation, run);
+  write(options, glbBytes(refined.scene), *run.progress,
+        [&](std::ostream& out) { writeGlb(out, refined.scene); });
+  return {refined.vertexCount, refined.triangleCount, refined.warnings};
+}
+
+Written writePolygons(const SubdivideArguments& options, const Scene& scene,
+                      const PreparationOptions& preparation, const RunOptions& run) {
+  Refinement refined = refine(scene, options.levels, preparation, run);
+  write(options, expectedBytes(refined.mesh), *run.progress,
+        [&](std::ostream& out) { writeMesh(out, refined.mesh, formatOf(options.output)); });
+  noteLostColors(options, scene, refined);
+  return {refined.mesh.pointCount(), refined.mesh.faceCount(), refined.warnings};
+}
+
 int runSubdivide(const SubdivideArguments& options) {
-  formatOf(options.output);  // refuses others
+  if (!isGlb(options.output)) formatOf(options.output);  // refuses others
   const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
                                           options.dropComponents, options.strict};
   ProgressBar bar(options.common);
@@ -77,21 +116,20 @@ int runSubdivide(const SubdivideArguments& options) {
                                 [&] { return readScene(options.input, options.scale); });
   requireOutput(options.output, options.common, scene);
   Progress progress(bar.callback());
-  RunOptions runOptions = options.common.run;
-  runOptions.progress = &progress;
-  Refinement refined;
+  RunOptions run = options.common.run;
+  run.progress = &progress;
+  Written written;
   {
     const CancelOnSignal cancelOnSignal(progress);
-    refined = refine(scene, options.levels, preparation, runOptions);
-    write(options, refined.mesh, progress);
+    written =
+        (isGlb(options.output) ? writeShaded : writePolygons)(options, scene, preparation, run);
     progress.finish();
   }
   bar.erase();
-  const PolygonMesh& mesh = refined.mesh;
-  for (const std::string& warning : refined.warnings) say(options.common, "warning: " + warning);
-  sayLostColors(options, scene, mesh);
-  say(options.common, options.output + ": " + std::to_string(mesh.pointCount()) + " vertices, " +
-                          std::to_string(mesh.faceCount()) + " faces");
+  for (const std::string& warning : written.warnings) say(options.common, "warning: " + warning);
+  say(options.common, options.output + ": " + std::to_string(written.vertices) + " vertices, " +
+                          std::to_string(written.faces) +
+                          (isGlb(options.output) ? " triangles" : " faces"));
   return 0;
 }
 
@@ -103,8 +141,10 @@ Action addSubdivide(CLI::App& app) {
   command.add("INPUT", options->input, "Scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb)")
       .required();
   command
-      .add("-o,--output", options->output,
-           "Mesh file to write: .obj, .ply or .off; - for OBJ on stdout")
+      .add(
+          "-o,--output", options->output,
+          "Mesh file to write: .obj, .ply or .off, or .glb for triangles with normals, colours and "
+          "materials; - for OBJ on stdout")
       .required()
       .type("OUT")
       .group("Output");

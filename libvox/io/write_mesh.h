@@ -9,7 +9,8 @@ namespace vox {
 
 enum class MeshFormat { kObj, kPly, kOff };
 
-/// Format for the extension of a file name: .obj, .ply or .off (case does not matter).
+/// Format for the extension of a file name: .obj, .ply or .off (case does not matter). For .glb see
+/// write_glb.h.
 /// @throws UsageError  another extension
 MeshFormat meshFormatFor(const std::filesystem::path& file);
 

@@ -25,8 +25,6 @@
 namespace vox {
 namespace {
 
-constexpr const char* kRefineAdvice = "use fewer levels, or raise --max-memory";
-
 /// Adds the names of file and object to mesh errors.
 template <class Work>
 auto namingObject(const Scene& scene, const SceneObject& object, Work&& work) {
@@ -266,31 +264,21 @@ struct RefineWork {
   static constexpr double kWritingPerCorner = 200;
 };
 
-Refinement refineAll(const Scene& scene, int levels,
-                     std::span<const ObjectPreparation> preparations, MemoryBudget budget,
-                     Progress& progress) {
+void prepareAll(const Scene& scene, int levels, std::span<const ObjectPreparation> preparations,
+                MemoryBudget budget, Progress& progress, const VisitPrepared& visit) {
   std::vector<RefineWork> works;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     works.emplace_back(scene.objects[i].mesh, levels, preparations[i].interpolates());
     progress.plan(works[i].prepare + works[i].subdivide + works[i].write);
   }
-  Refinement all;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     budget.take(bytesOf(object.mesh), "the input", kRefineAdvice);
     progress.begin("prepare", works[i].prepare);
     PreparedObject prepared = prepare(scene, object, preparations[i], budget, progress);
     progress.begin("subdivide", works[i].subdivide);
-    const bool cut = !prepared.base.seam.empty();
-    const SubdivisionLevel level =
-        subdividedWithin(budget, std::move(prepared.base), levels, progress, Colors::kKept);
-    PolygonMesh part = cut ? joinedAlongCreases(level.mesh, level.adjacency) : level.mesh;
-    all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
-    // A vector that grows holds up to twice what it needs while it moves.
-    budget.take(2 * bytesOf(part), "the refined mesh", kRefineAdvice);
-    appendWithin(all.mesh, std::move(part));
+    visit(i, std::move(prepared), budget, progress);
   }
-  return all;
 }
 
 }  // namespace
@@ -321,13 +309,15 @@ std::uint64_t bytesOfNextTopology(const SubdivisionLevel& level) {
 }
 
 SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel level, int levels,
-                                  Progress& progress, Colors colors) {
+                                  Progress& progress, Colors colors,
+                                  std::vector<VertexPlace>* places) {
   for (int k = 1; k <= levels; ++k) {
     progress.check();
     budget.require(bytesOf(level) + bytesOfImage(level) + bytesOfNextTopology(level),
                    "level " + std::to_string(k), kRefineAdvice);
     std::vector<Vec3f> painted;
     if (colors == Colors::kKept) painted = imageColors(level);
+    if (places != nullptr) *places = nextPlaces(level, *places, k - 1);
     level = nextLevel(level, imageVertices(level));
     level.mesh.pointColors = std::move(painted);
     progress.done(partOfStep(k, levels));
@@ -400,17 +390,36 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
   return prepared;
 }
 
-Refinement refine(const Scene& scene, int levels, const PreparationOptions& preparation,
-                  const RunOptions& run) {
+void prepareEach(const Scene& scene, int levels, const PreparationOptions& preparation,
+                 const RunOptions& run, bool keepsTexcoords, const VisitPrepared& visit) {
   if (levels < 0) throw UsageError("--levels must be 0 or more, not " + std::to_string(levels));
   requirePreparable(scene, preparation);
   requireValidScene(scene);
-  const std::vector<ObjectPreparation> preparations = preparationsOf(scene, preparation);
+  std::vector<ObjectPreparation> preparations = preparationsOf(scene, preparation);
+  for (ObjectPreparation& one : preparations) one.followsTexcoords = keepsTexcoords;
   Progress unwatched;
   Progress& progress = run.progress != nullptr ? *run.progress : unwatched;
-  return onThreads(run.threads, [&] {
-    return refineAll(scene, levels, preparations, MemoryBudget(run.maxMemory), progress);
+  onThreads(run.threads, [&] {
+    prepareAll(scene, levels, preparations, MemoryBudget(run.maxMemory), progress, visit);
   });
+}
+
+Refinement refine(const Scene& scene, int levels, const PreparationOptions& preparation,
+                  const RunOptions& run) {
+  Refinement all;
+  const auto add = [&](std::size_t, PreparedObject prepared, MemoryBudget& budget,
+                       Progress& progress) {
+    const bool cut = !prepared.base.seam.empty();
+    const SubdivisionLevel level =
+        subdividedWithin(budget, std::move(prepared.base), levels, progress, Colors::kKept);
+    PolygonMesh part = cut ? joinedAlongCreases(level.mesh, level.adjacency) : level.mesh;
+    all.warnings.insert(all.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
+    // A vector that grows holds up to twice what it needs while it moves.
+    budget.take(2 * bytesOf(part), "the refined mesh", kRefineAdvice);
+    appendWithin(all.mesh, std::move(part));
+  };
+  prepareEach(scene, levels, preparation, run, false, add);
+  return all;
 }
 
 }  // namespace vox

@@ -9,8 +9,11 @@
 #include "libvox/prepare/crease.h"
 #include "libvox/prepare/interpolate.h"
 #include "libvox/subdivide/doo_sabin.h"
+#include "libvox/subdivide/vertex_places.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,6 +49,15 @@ struct PreparedObject {
   std::vector<Vec2f> texcoords;   ///< per corner, if they follow; or empty
 };
 
+/// Prepares the objects of a scene, one after the other, for so many Doo-Sabin steps, and hands
+/// each to `visit` with its number. In visit, the current stage of the progress is "subdivide"; the
+/// budget holds the inputs.
+/// @param keepsTexcoords  texture coordinates follow
+/// @throws as refine
+using VisitPrepared = std::function<void(std::size_t, PreparedObject, MemoryBudget&, Progress&)>;
+void prepareEach(const Scene& scene, int levels, const PreparationOptions& preparation,
+                 const RunOptions& run, bool keepsTexcoords, const VisitPrepared& visit);
+
 /// Box of the components of an object that are not dropped, in world units.
 /// @throws MeshError  all are dropped; the message names file and object
 Box keptBox(const Scene& scene, const SceneObject& object, const ObjectPreparation& preparation);
@@ -71,9 +83,14 @@ PreparedObject prepare(const Scene& scene, const SceneObject& object,
 enum class Colors { kDropped, kKept };
 
 /// K Doo-Sabin steps.
+/// @param places  receives those of the vertices of the last level, if there is a step; may be null
 /// @throws LimitError  a level does not fit into the budget, or has 2^32 - 1 corners or more
 SubdivisionLevel subdividedWithin(const MemoryBudget& budget, SubdivisionLevel level, int levels,
-                                  Progress& progress, Colors colors = Colors::kDropped);
+                                  Progress& progress, Colors colors = Colors::kDropped,
+                                  std::vector<VertexPlace>* places = nullptr);
+
+/// What a caller of subdividedWithin may tell a user whose levels do not fit into memory.
+inline constexpr const char* kRefineAdvice = "use fewer levels, or raise --max-memory";
 
 /// Checks the arrays of every object (requireValidArrays).
 /// @throws MeshError  the message names file and object

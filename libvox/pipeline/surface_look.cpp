@@ -3,6 +3,7 @@
 #include "libvox/pipeline/surface_look.h"
 
 #include "libvox/core/color.h"
+#include "libvox/pipeline/corner_blend.h"
 #include "libvox/pipeline/prepared_surface.h"
 
 #include <algorithm>
@@ -12,53 +13,12 @@
 namespace vox {
 namespace {
 
-/// The bilinear function of the square of a corner, from the values at its four corners.
-template <class T>
-struct Blend {
-  T corner, next, previous, mean;  // at (0, 0), (1, 0), (0, 1), (1, 1)
-
-  T at(double u, double v) const {
-    using Scalar = typename T::Scalar;
-    const auto s = static_cast<Scalar>(u);
-    const auto t = static_cast<Scalar>(v);
-    return (s * t) * mean + (s * (1 - t)) * next + ((1 - s) * t) * previous +
-           ((1 - s) * (1 - t)) * corner;
-  }
-  T alongU(double v) const {
-    const auto t = static_cast<typename T::Scalar>(v);
-    return t * (mean - previous) + (1 - t) * (next - corner);
-  }
-  T alongV(double u) const {
-    const auto s = static_cast<typename T::Scalar>(u);
-    return s * (mean - next) + (1 - s) * (previous - corner);
-  }
-};
-
-/// @param valueAt  the value of a corner
-template <class T, class ValueAt>
-Blend<T> blendOf(const SubdivisionLevel& base, Index corner, const T& mean, ValueAt&& valueAt) {
-  const Index f = base.adjacency.cornerFace[corner];
-  const Index first = base.mesh.faceOffsets[f];
-  const Index end = base.mesh.faceOffsets[f + 1];
-  const T here = valueAt(corner);
-  const T next = valueAt(corner + 1 == end ? first : corner + 1);
-  const T previous = valueAt((corner == first ? end : corner) - 1);
-  return {here, (here + next) / 2, (here + previous) / 2, mean};
+/// The share of a side that a voxel covers; at most all of it.
+double covered(const Vec3d& side) {
+  return 1 / std::max(1.0, side.norm());
 }
 
-template <class T, class ValueAt>
-std::vector<T> meansOfFaces(const PolygonMesh& mesh, ValueAt&& valueAt) {
-  std::vector<T> means;
-  means.reserve(mesh.faceCount());
-  for (Index f = 0; f < mesh.faceCount(); ++f) {
-    Eigen::Matrix<double, T::RowsAtCompileTime, 1> sum;
-    sum.setZero();
-    for (Index c = mesh.faceOffsets[f]; c < mesh.faceOffsets[f + 1]; ++c)
-      sum += valueAt(c).template cast<double>();
-    means.emplace_back((sum / mesh.faceSize(f)).template cast<typename T::Scalar>());
-  }
-  return means;
-}
+}  // namespace
 
 std::vector<Vec3f> colorsOfCorners(const PolygonMesh& mesh) {
   std::vector<Vec3f> colors;
@@ -70,13 +30,6 @@ std::vector<Vec3f> colorsOfCorners(const PolygonMesh& mesh) {
   }
   return colors;
 }
-
-/// The share of a side that a voxel covers; at most all of it.
-double covered(const Vec3d& side) {
-  return 1 / std::max(1.0, side.norm());
-}
-
-}  // namespace
 
 SurfaceColors::SurfaceColors(const PreparedSurface& surface) : surface_(surface) {
   if (surface.texture) return;  // it is evaluated in space
