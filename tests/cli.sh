@@ -4,6 +4,7 @@
 set -uo pipefail
 vox=$(realpath "$1")
 scenes=$(realpath "$2")
+here=$(realpath "$(dirname "$0")")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
@@ -695,6 +696,64 @@ expect 2 'tolerance' diff torus.vdb torus.vdb --tolerance -1
 expect 3 'nowhere.vdb: no such file' diff torus.vdb nowhere.vdb
 expect 3 "neither file has a grid 'fog'" diff torus.vdb torus.vdb --grids fog
 
+expect 2 'tolerance' diff torus.vdb torus.vdb --tolerance-voxels -1
+expect 1 '' diff torus.vdb torus41.vdb --grids mask --no-metadata --tolerance-voxels 3
+grep -q '^  topology: .* voxels apart, where 3 are allowed$' stdout || fail "diff --tolerance-voxels: $(cat stdout)"
+"$vox" convert "$scenes/torus.toml" -o again.vdb --like torus.vdb --grids mask --until diameter=0.3 -q
+expect 1 '' diff torus.vdb again.vdb --grids mask --no-metadata
+expect 0 '' diff torus.vdb again.vdb --grids mask --no-metadata --tolerance-voxels 1
+grep -q '^mask: same, ' stdout || fail "diff --tolerance-voxels: $(cat stdout)"
+
+# Folders, by the names of files; and reports for CI.
+mkdir -p one/sub two/sub
+cp torus.vdb one/sub/torus.vdb
+cp torus.vdb two/sub/torus.vdb
+expect 0 '' diff one two
+printf 'sub/torus.vdb: same\n' | diff - <(head -1 stdout) || fail "diff of folders: $(cat stdout)"
+cp torus.vdb "one/<script>&.vdb"
+cp torus41.vdb "two/<script>&.vdb"
+cp torus.vdb two/more.vdb
+cp torus.vdb $'two/tab\x01\xff.vdb'
+expect 1 '' diff one two --junit folders.xml
+grep -q '^<script>&.vdb: differs$' stdout || fail "diff of folders: $(cat stdout)"
+grep -q '^  mask: differs$' stdout || fail "diff of folders: $(cat stdout)"
+grep -q '^more.vdb: only in B$' stdout || fail "diff of folders: $(cat stdout)"
+grep -q '^4 files: 1 same, 1 different, 2 only in B$' stdout || fail "diff of folders: $(cat stdout)"
+expect 5 'folders.xml: exists' diff one two --junit folders.xml
+expect 1 '' diff one two --junit folders.xml --force --json
+python3 - stdout folders.xml <<'PY' || fail "diff of folders: --json and --junit"
+import json, sys
+import xml.etree.ElementTree as tree
+diff = json.load(open(sys.argv[1]))
+assert diff["same"] is False and len(diff["files"]) == 4
+by_name = {file["name"]: file for file in diff["files"]}
+assert by_name["sub/torus.vdb"]["same"] and not by_name["more.vdb"]["in_a"]
+assert [g["name"] for g in by_name["<script>&.vdb"]["grids"]] == ["density", "mask"]
+suite = tree.parse(sys.argv[2]).getroot().find("testsuite")
+assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("4", "3", "0")
+cases = {case.get("name"): case for case in suite}
+assert set(cases) == {"<script>&.vdb", "more.vdb", "sub/torus.vdb", "tab\ufffd\ufffd.vdb"}, cases
+failure = cases["<script>&.vdb"].find("failure")
+assert failure.get("message") == "<script>&.vdb: differs" and "mask: differs" in failure.text
+assert cases["sub/torus.vdb"].find("failure") is None
+PY
+echo nothing >one/bad.vdb
+cp one/bad.vdb two/bad.vdb
+expect 3 '1 of 5 files could not be compared; the first: one/bad.vdb: is not an OpenVDB file' diff one two --junit errors.xml
+grep -q '^sub/torus.vdb: same$' stdout || fail "diff of folders: an error stops it: $(cat stdout)"
+grep -q 'errors="1"' errors.xml || fail "--junit: $(cat errors.xml)"
+expect 1 '' diff torus.vdb torus41.vdb --junit grids.xml
+grep -q '<testcase classname="vox diff torus.vdb torus41.vdb" name="mask">' grids.xml || fail "--junit: $(cat grids.xml)"
+expect 3 'is not an OpenVDB file' diff torus.vdb one/bad.vdb --junit error.xml
+expect 2 'is no folder, but one is' diff one torus.vdb
+expect 2 'two files, not folders' diff one two -o out.vdb
+expect 2 'must end in .xml' diff torus.vdb torus41.vdb --junit out.txt
+expect 3 "no file that both folders have has a grid 'fog'" diff one/sub two/sub --grids fog
+if command -v xmllint >/dev/null; then
+  for report in folders errors grids error; do
+    xmllint --noout --schema "$here/junit.xsd" $report.xml 2>stderr || fail "$report.xml: $(cat stderr)"
+  done
+fi
 
 # Merging: other files, and the parts of a conversion.
 "$vox" convert "$scenes/torus.toml" -o fog.vdb --dim 40 -q

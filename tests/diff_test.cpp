@@ -3,13 +3,23 @@
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/inspect/diff_folders.h"
+#include "libvox/io/read_vdb.h"
+#include "libvox/io/write_junit.h"
+#include "libvox/io/write_vdb.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
+#include <sstream>
+#include <string>
+#include <vector>
 
 using namespace vox;
 using Catch::Contains;
@@ -136,6 +146,37 @@ void checkOneValue(const typename Grid::ValueType& one, const typename Grid::Val
 /// Writes a file like other programs do, with a random UUID.
 void writePlainly(const std::filesystem::path& file, const openvdb::GridPtrVec& grids) {
   openvdb::io::File(file.string()).write(grids);
+}
+
+/// Writes a file as vox does, with a hash.
+void writeOwn(const std::filesystem::path& file, const openvdb::GridPtrVec& grids) {
+  std::stringstream stream;
+  writeVdb(stream, grids, {});
+  std::ofstream(file, std::ios::binary) << stream.str();
+}
+
+void checkSame(const GridDiff& found, const GridDiff& expected) {
+  const auto texts = [](const std::vector<TextDiff>& all) {
+    std::string text;
+    for (const TextDiff& one : all) text += one.what + ": " + one.a + ", " + one.b + "; ";
+    return text;
+  };
+  CHECK(found.name == expected.name);
+  CHECK(found.same() == expected.same());
+  CHECK(texts(found.properties) == texts(expected.properties));
+  CHECK(texts(found.metadata) == texts(expected.metadata));
+  CHECK(found.topology.active == expected.topology.active);
+  CHECK(found.topology.onlyA == expected.topology.onlyA);
+  CHECK(found.topology.onlyB == expected.topology.onlyB);
+  CHECK(found.topology.first == expected.topology.first);
+  CHECK(found.topology.distance == expected.topology.distance);
+  REQUIRE(found.values.has_value() == expected.values.has_value());
+  if (!found.values) return;
+  CHECK(found.values->compared == expected.values->compared);
+  CHECK(found.values->differing == expected.values->differing);
+  CHECK(found.values->largest == expected.values->largest);
+  CHECK(found.values->rms == expected.values->rms);
+  CHECK(found.values->inactiveDiffering == expected.values->inactiveDiffering);
 }
 
 }  // namespace
@@ -374,4 +415,183 @@ TEST_CASE("values that cannot be read from a file end in an error", "[inspect][d
   const std::string whole = test::contentOf(folder / "whole.vdb");
   const auto cut = folder.write("cut.vdb", whole.substr(0, whole.size() - 3000));
   CHECK_THROWS_AS(diffVdb(folder / "whole.vdb", cut, {}), InputError);
+}
+
+TEST_CASE("files of vox that share bytes are compared as all others", "[inspect][diff][property]") {
+  const test::TemporaryFolder folder;
+  std::mt19937 random(11);
+  const auto compared = [&](const openvdb::GridPtrVec& a, const openvdb::GridPtrVec& b) {
+    writeOwn(folder / "a.vdb", a);
+    writeOwn(folder / "b.vdb", b);
+    const FileDiff found = diffVdb(folder / "a.vdb", folder / "b.vdb", {});
+    const VdbFile fileA = readVdb(folder / "a.vdb");
+    const VdbFile fileB = readVdb(folder / "b.vdb");
+    for (const GridDiff& diff : found.grids) {
+      const auto in = [&](const VdbFile& file) {
+        return std::find_if(file.grids.begin(), file.grids.end(),
+                            [&](const NamedGrid& one) { return one.name == diff.name; });
+      };
+      CHECK(diff.inA == (in(fileA) != fileA.grids.end()));
+      CHECK(diff.inB == (in(fileB) != fileB.grids.end()));
+      if (!diff.inA || !diff.inB) continue;
+      GridDiff expected = diffGrids(*in(fileA)->grid, *in(fileB)->grid, {});
+      expected.name = diff.name;
+      checkSame(diff, expected);
+    }
+    return found;
+  };
+  for (int i = 0; i < 12; ++i) {
+    CAPTURE(i);
+    const auto density = randomGrid(random, i % 2 == 0);
+    auto mask = gridNamed<openvdb::MaskGrid>("mask");
+    mask->tree().topologyUnion(density->tree());
+    auto colors = gridNamed<openvdb::Vec3SGrid>("color");
+    for (auto voxel = density->cbeginValueOn(); voxel; ++voxel)
+      if (voxel.isVoxelValue()) colors->tree().setValueOn(voxel.getCoord(), {*voxel, kNan, 1});
+    auto flags = gridNamed<openvdb::BoolGrid>("flags");
+    flags->tree().topologyUnion(density->tree());
+    CHECK(compared({density, mask, colors, flags}, {flags, colors, mask, density}).same());
+
+    auto other = density->deepCopy();
+    other->tree().setValueOn({1, 2, 3}, 17.0F);
+    const FileDiff values = compared({density, mask, colors}, {other, mask, flags});
+    CHECK_FALSE(values.same());
+    auto moved = mask->deepCopy();
+    moved->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
+    moved->insertMeta("maker", openvdb::StringMetadata("me"));
+    const FileDiff heads = compared({density, mask}, {density, moved});
+    CHECK(heads.grids[0].same());
+    CHECK(heads.grids[1].properties.size() == 1);
+    CHECK(heads.grids[1].metadata.size() == 1);
+    auto halves = density->deepCopy();
+    halves->setSaveFloatAsHalf(true);
+    compared({density}, {halves});
+    auto second = density->deepCopy();  // two grids of one name
+    compared({density, second, mask}, {density, other, mask});
+    DiffOptions options;
+    options.onlyGrids = {"density"};
+    writeOwn(folder / "a.vdb", {density, mask});
+    writeOwn(folder / "b.vdb", {density, flags});
+    CHECK(diffVdb(folder / "a.vdb", folder / "b.vdb", options).same());
+    CHECK(diffVdb(folder / "a.vdb", folder / "b.vdb", options).grids.size() == 1);
+    options.onlyGrids = {"density", "fog"};
+    CHECK_THROWS_WITH(diffVdb(folder / "a.vdb", folder / "b.vdb", options), Contains("'fog'"));
+  }
+}
+
+TEST_CASE("a damaged file is an error, even if the other has the same bytes",
+          "[inspect][diff][error]") {
+  const test::TemporaryFolder folder;
+  std::mt19937 random(5);
+  writeOwn(folder / "a.vdb", {randomGrid(random, false)});
+  std::string bytes = test::contentOf(folder / "a.vdb");
+  bytes[bytes.size() - 40] = static_cast<char>(bytes[bytes.size() - 40] ^ 1);
+  const auto b = folder.write("b.vdb", bytes);
+  const auto c = folder.write("c.vdb", bytes);
+  CHECK_THROWS_WITH(diffVdb(folder / "a.vdb", b, {}), Contains("b.vdb: is damaged"));
+  CHECK_THROWS_WITH(diffVdb(b, c, {}), Contains("b.vdb: is damaged"));
+}
+
+TEST_CASE("voxels may move by as much as is allowed", "[inspect][diff][property]") {
+  std::mt19937 random(21);
+  for (int i = 0; i < 40; ++i) {
+    const auto a = randomGrid(random, false);
+    auto b = a->deepCopy();
+    if (i % 2 == 0) {
+      b = gridNamed<openvdb::FloatGrid>("density");
+      for (auto voxel = a->cbeginValueOn(); voxel; ++voxel)
+        b->tree().setValueOn(voxel.getCoord().offsetBy(i % 3, (i / 3) % 2, 0), *voxel);
+    } else {
+      b->tree().setValueOn({i % 13, -i % 13, 4}, 1.0F);
+    }
+    const Expected expected = compareVoxelByVoxel(*a, *b, 0);
+    const double distance = expected.topology.distance;
+    for (const double allowed : {0.0, 0.5, 1.0, 1.5, 2.0, distance, 10.0}) {
+      DiffOptions options;
+      options.voxelTolerance = allowed;
+      const GridDiff diff = diffGrids(*a, *b, options);
+      checkSame(diff, expected);  // what differs is told as ever
+      CHECK(diff.topology.distance == Approx(distance));
+      CHECK(diff.topology.same() == (distance <= allowed));
+    }
+  }
+  DiffOptions options;
+  options.voxelTolerance = -1;
+  const auto grid = randomGrid(random, false);
+  CHECK_THROWS_AS(diffGrids(*grid, *grid, options), UsageError);
+  // Nothing is near a grid without voxels.
+  options.voxelTolerance = 1e9;
+  auto none = gridNamed<openvdb::FloatGrid>("density");
+  CHECK_FALSE(diffGrids(*grid, *none, options).topology.same());
+}
+
+TEST_CASE("folders are compared by the names of their files", "[inspect][diff]") {
+  const test::TemporaryFolder folder;
+  std::mt19937 random(31);
+  const auto grid = randomGrid(random, false);
+  auto other = grid->deepCopy();
+  other->tree().setValueOn(grid->cbeginValueOn().getCoord(), 99.0F);
+  for (const std::string name : {"a/sub/deep", "b/sub/deep"})
+    std::filesystem::create_directories(folder / name);
+  for (const std::string name : {"a/same.vdb", "b/same.vdb", "a/sub/deep/x.vdb", "a/only.vdb",
+                                 "b/sub/more.VDB", "a/bad.vdb"})
+    writeOwn(folder / name, {grid});
+  writeOwn(folder / "b/sub/deep/x.vdb", {other});
+  folder.write("b/bad.vdb", "nothing");
+  folder.write("b/notes.txt", "no grids");
+  const FolderDiff diff = diffFolders(folder / "a", folder / "b", {});
+  CHECK_FALSE(diff.same());
+  std::string found;
+  for (const FilePairDiff& file : diff.files)
+    found += file.name +
+             (!file.inB             ? " A"
+              : !file.inA           ? " B"
+              : !file.error.empty() ? " error"
+              : file.same()         ? " same"
+                                    : " differs") +
+             "\n";
+  CHECK(found ==
+        "bad.vdb error\nonly.vdb A\nsame.vdb same\nsub/deep/x.vdb differs\nsub/more.VDB B\n");
+  CHECK(diff.files[0].exitCode == 3);
+  CHECK(diff.files[3].diff.grids.at(0).values->differing == 1);
+  CHECK(diffFolders(folder / "a", folder / "a", {}).same());
+  DiffOptions options;
+  options.onlyGrids = {"density"};
+  CHECK(diffFolders(folder / "a", folder / "a", options).same());
+  options.onlyGrids = {"fog"};
+  CHECK_THROWS_WITH(diffFolders(folder / "a", folder / "a", options), Contains("'fog'"));
+  std::filesystem::create_directories(folder / "none");
+  CHECK_THROWS_WITH(diffFolders(folder / "none", folder / "none", {}), Contains("neither folder"));
+}
+
+TEST_CASE("reports for CI escape what XML cannot hold", "[inspect][diff][io]") {
+  const auto written = [](const std::string& name, const std::string& text) {
+    std::ostringstream out;
+    writeJunit(out, {"suite", {{"good"}, {name, JunitCase::Result::kFailed, text}}});
+    return out.str();
+  };
+  CHECK(written("a", "b\nc") ==
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<testsuites tests=\"2\" failures=\"1\" errors=\"0\">\n"
+        "  <testsuite name=\"suite\" tests=\"2\" failures=\"1\" errors=\"0\" skipped=\"0\">\n"
+        "    <testcase classname=\"suite\" name=\"good\"/>\n"
+        "    <testcase classname=\"suite\" name=\"a\">\n"
+        "      <failure message=\"b\">b\nc</failure>\n"
+        "    </testcase>\n  </testsuite>\n</testsuites>\n");
+  const auto named = [&](const std::string& name) {
+    const std::string all = written(name, "");
+    const std::size_t begin = all.rfind("name=\"") + 6;
+    return all.substr(begin, all.find("\">", begin) - begin);
+  };
+  CHECK(named("<script>&\"") == "&lt;script&gt;&amp;&quot;");
+  CHECK(named("a\tb\nc\rd") == "a&#9;b&#10;c&#13;d");
+  CHECK(named("\u00e9\u20ac\U0001F600") == "\u00e9\u20ac\U0001F600");
+  const std::string other = "\uFFFD";
+  CHECK(named(std::string("a\0\x1b", 3)) == "a" + other + other);
+  CHECK(named("\xff") == other);
+  CHECK(named("\xe2\x82") == other + other);              // cut short
+  CHECK(named("\xc0\xaf") == other + other);              // overlong
+  CHECK(named("\xed\xa0\x80") == other + other + other);  // half a surrogate pair
+  CHECK(named("\xef\xbf\xbf") == other + other + other);  // U+FFFF
+  CHECK(named("\xf5\x80\x80\x80") == other + other + other + other);
 }

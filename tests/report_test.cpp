@@ -1,3 +1,4 @@
+#include "libvox/core/markup.h"
 #include "libvox/core/parallel.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/io/write_vdb.h"
@@ -53,10 +54,14 @@ std::filesystem::path save(const test::TemporaryFolder& folder, const std::strin
 
 Comparison compared(const std::filesystem::path& a, const std::filesystem::path& b) {
   Comparison comparison;
-  comparison.a = a.filename().string();
-  comparison.b = b.filename().string();
-  comparison.command = {"vox", "diff", comparison.a, comparison.b};
-  comparison.files.push_back({comparison.a, a, b, diffVdb(a, b, {})});
+  comparison.a = a.string();
+  comparison.b = b.string();
+  comparison.command = {"vox", "diff", "a.vdb", "b.vdb"};
+  FilePairDiff files;
+  files.name = comparison.a;
+  files.inA = files.inB = true;
+  files.diff = diffVdb(a, b, {});
+  comparison.files = {files};
   return comparison;
 }
 
@@ -123,7 +128,7 @@ std::map<Coord, unsigned> decoded(const PointCloud& cloud) {
 }  // namespace
 
 TEST_CASE("text in a report is text", "[report]") {
-  CHECK(escaped("a<b> & 'c' \"d\"") == "a&lt;b&gt; &amp; &#39;c&#39; &quot;d&quot;");
+  CHECK(escaped("a<b> & 'c' \"d\"") == "a&lt;b&gt; &amp; 'c' &quot;d&quot;");
   CHECK(escaped("Grün \u2192 \U0001F600\n") == "Grün \u2192 \U0001F600\n");
   const std::string unknown = "\uFFFD";
   CHECK(escaped(std::string("\x01\0\x7F", 3)) == unknown + unknown + unknown);
@@ -131,6 +136,10 @@ TEST_CASE("text in a report is text", "[report]") {
   CHECK(escaped("\xED\xA0\x80") == unknown + unknown + unknown);  // a surrogate
   CHECK(escaped("\xF5\x80\x80\x80") == unknown + unknown + unknown + unknown);
   CHECK(escaped("a\xE2\x82") == 'a' + unknown + unknown);  // cut off
+}
+
+TEST_CASE("the value of an attribute keeps its line ends", "[report]") {
+  CHECK(escapedValue("a\n\"b\"\t<c>") == "\"a&#10;&quot;b&quot;&#9;&lt;c&gt;\"");
 }
 
 TEST_CASE("base64 is that of RFC 4648", "[report]") {
@@ -356,20 +365,25 @@ TEST_CASE("a report names the files that only one folder has, and links to the o
   const test::TemporaryFolder folder;
   const auto a = block(kBox);
   const auto b = block(CoordBBox(kBox.min(), kBox.max().offsetBy(0, 0, 2)));
-  const auto fileA = save(folder, "a.vdb", a);
-  const auto fileB = save(folder, "b.vdb", b);
+  for (const char* name : {"old", "new"}) std::filesystem::create_directory(folder / name);
+  for (const char* file : {"old/same.vdb", "new/same.vdb", "old/<b>.vdb", "old/gone.vdb"})
+    save(folder, file, a);
+  save(folder, "new/<b>.vdb", b);
+  folder.write("old/damaged.vdb", "nonsense");
+  folder.write("new/damaged.vdb", "nonsense");
   Comparison comparison;
-  comparison.a = "old";
-  comparison.b = "new";
-  comparison.files = {{"same.vdb", fileA, fileA, diffVdb(fileA, fileA, {})},
-                      {"<b>.vdb", fileA, fileB, diffVdb(fileA, fileB, {})},
-                      {"gone.vdb", fileA, {}, {}}};
+  comparison.a = folder / "old";
+  comparison.b = folder / "new";
+  comparison.areFolders = true;
+  comparison.files = diffFolders(comparison.a, comparison.b, {}).files;
   const std::string report = diffReport(comparison);
-  CHECK_THAT(report, Contains("2 of 3 files differ"));
-  CHECK_THAT(report, Contains("<a href=\"#file-1\">&lt;b&gt;.vdb</a>"));
-  CHECK_THAT(report, Contains("<h2 id=\"file-1\">&lt;b&gt;.vdb</h2>"));
+  CHECK_THAT(report, Contains("3 of 4 files differ"));
+  CHECK_THAT(report, Contains("<a href=\"#file-0\">&lt;b&gt;.vdb</a>"));
+  CHECK_THAT(report, Contains("<h2 id=\"file-0\">&lt;b&gt;.vdb</h2>"));
+  CHECK_THAT(report, Contains("800 voxels only in B"));
   CHECK_THAT(report, Contains("This file is only in A."));
-  CHECK_THAT(report, !Contains("id=\"file-0\""));
+  CHECK_THAT(report, Contains(">not compared<"));
+  CHECK_THAT(report, !Contains("id=\"file-3\""));  // the same
 }
 
 TEST_CASE("the report of a check marks the places", "[report]") {

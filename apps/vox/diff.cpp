@@ -1,22 +1,30 @@
-// vox diff: the differences of two .vdb files.
+// vox diff: the differences of two files of grids, or of two folders of them.
 
 #include "libvox/inspect/diff.h"
 
 #include "apps/vox/command.h"
 #include "apps/vox/counted.h"
-#include "apps/vox/json.h"
+#include "apps/vox/diff_junit.h"
+#include "apps/vox/diff_text.h"
 #include "apps/vox/options.h"
 #include "libvox/core/error.h"
+#include "libvox/inspect/diff_folders.h"
 #include "libvox/io/atomic_file.h"
 #include "libvox/io/input_file.h"
+#include "libvox/io/write_junit.h"
 #include "libvox/report/diff_report.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <sstream>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 namespace vox::app {
 namespace {
@@ -29,120 +37,47 @@ struct DiffArguments {
   std::string grids;
   bool noMetadata = false;
   std::string output;
+  std::string junit;
   std::string report;
   bool force = false;
   bool quiet = false;
   bool json = false;
 };
 
-Json toJson(const std::vector<TextDiff>& texts) {
-  Json json = Json::array();
-  for (const TextDiff& text : texts)
-    json.push_back({{"what", text.what}, {"a", text.a}, {"b", text.b}});
-  return json;
+bool isFolder(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
 }
 
-Json toJson(const TopologyDiff& topology) {
-  return {{"active", topology.active},
-          {"only_a", topology.onlyA},
-          {"only_b", topology.onlyB},
-          {"first", orNull(topology.first)},
-          {"distance", topology.distance}};  // infinity is null in JSON
+/// @throws UsageError  one is a folder, the other is none
+bool areFolders(const DiffArguments& options) {
+  const bool folders = isFolder(options.a);
+  if (folders != isFolder(options.b))
+    throw UsageError((folders ? options.b : options.a) + ": is no folder, but " +
+                     (folders ? options.a : options.b) + " is; name two files or two folders");
+  return folders;
 }
 
-Json toJson(const ValueDiff& values) {
-  return {{"compared", values.compared},
-          {"differing", values.differing},
-          {"first", orNull(values.first)},
-          {"largest", values.largest},
-          {"rms", values.rms},
-          {"inactive_differing", values.inactiveDiffering}};
+/// Checks the name of a file to write.
+void requireOutputName(const DiffArguments& options, const std::string& output) {
+  if (output.empty()) return;
+  for (const std::string& input : {options.a, options.b})
+    if (isSameFile(output, input))
+      throw UsageError(output + ": is the input " + input + "; choose another name");
+  requireWritable(output, options.force);
 }
 
-Json toJson(const GridDiff& grid) {
-  return {{"name", grid.name},
-          {"same", grid.same()},
-          {"in_a", grid.inA},
-          {"in_b", grid.inB},
-          {"properties", toJson(grid.properties)},
-          {"metadata", toJson(grid.metadata)},
-          {"topology", toJson(grid.topology)},
-          {"values", grid.values ? toJson(*grid.values) : Json()}};
-}
-
-std::string at(const std::optional<VoxelIndex>& voxel) {
-  if (!voxel) return {};
-  const auto& [x, y, z] = *voxel;
-  return ", first (" + std::to_string(x) + ' ' + std::to_string(y) + ' ' + std::to_string(z) + ')';
-}
-
-void print(const std::vector<TextDiff>& texts, const std::string& prefix) {
-  const auto quoted = [](const std::string& text) {
-    return text.empty() ? std::string("nothing") : "'" + onOneLine(text) + "'";
-  };
-  for (const TextDiff& text : texts)
-    std::cout << "  " << prefix << onOneLine(text.what) << ": " << quoted(text.a) << " in A, "
-              << quoted(text.b) << " in B\n";
-}
-
-void print(const TopologyDiff& topology) {
-  if (topology.same()) return;
-  std::cout << "  topology: " << counted(topology.onlyA, "voxel") << " only in A, "
-            << topology.onlyB << " only in B" << at(topology.first) << "; up to "
-            << topology.distance << " voxels apart\n";
-}
-
-void print(const ValueDiff& values) {
-  if (values.differing > 0)
-    std::cout << "  values: " << values.differing << " of " << values.compared << " differ"
-              << at(values.first) << "; by up to " << values.largest << ", rms " << values.rms
-              << '\n';
-  if (values.inactiveDiffering > 0)
-    std::cout << "  values: " << counted(values.inactiveDiffering, "inactive voxel")
-              << " have another value\n";
-}
-
-void print(const GridDiff& grid) {
-  std::cout << onOneLine(grid.name) << ": ";
-  if (!grid.inA || !grid.inB) {
-    std::cout << "only in " << (grid.inA ? 'A' : 'B') << '\n';
-    return;
-  }
-  if (!grid.same()) {
-    std::cout << "differs\n";
-    print(grid.properties, "");
-    print(grid.topology);
-    if (grid.values) print(*grid.values);
-    print(grid.metadata, "metadata ");
-    return;
-  }
-  std::cout << "same, " << counted(grid.topology.active[0], "active voxel");
-  if (grid.values && grid.values->largest > 0)
-    std::cout << "; values within the tolerance, by up to " << grid.values->largest << ", rms "
-              << grid.values->rms;
-  std::cout << '\n';
-}
-
-void print(const FileDiff& diff) {
-  for (const GridDiff& grid : diff.grids) print(grid);
-  if (diff.metadata.empty()) return;
-  std::cout << "file: differs\n";
-  print(diff.metadata, "metadata ");
-}
-
-void requireNames(const DiffArguments& options) {
-  const auto require = [&](const std::string& output, const char* option,
-                           const std::string& extension) {
-    if (output.empty()) return;
-    if (lowerExtension(output) != extension)
-      throw UsageError(output + ": the file of " + option + " must end in " + extension);
-    for (const std::string& input : {options.a, options.b})
-      if (isSameFile(output, input))
-        throw UsageError(output + ": is the input " + input + "; choose another name");
-    requireWritable(output, options.force);
-  };
-  require(options.output, "--output", ".vdb");
-  require(options.report, "--report", ".html");
+void requireNames(const DiffArguments& options, bool folders) {
+  if (!options.output.empty() && folders) throw UsageError("--output needs two files, not folders");
+  if (!options.output.empty() && lowerExtension(options.output) != ".vdb")
+    throw UsageError(options.output + ": the file of --output must end in .vdb");
+  if (!options.junit.empty() && lowerExtension(options.junit) != ".xml")
+    throw UsageError(options.junit + ": the file of --junit must end in .xml");
+  if (!options.report.empty() && lowerExtension(options.report) != ".html")
+    throw UsageError(options.report + ": the file of --report must end in .html");
+  requireOutputName(options, options.output);
+  requireOutputName(options, options.junit);
+  requireOutputName(options, options.report);
 }
 
 std::string numberText(double number) {
@@ -153,60 +88,107 @@ std::string numberText(double number) {
 /// The words of the command that makes the same comparison.
 std::vector<std::string> commandOf(const DiffArguments& options) {
   std::vector<std::string> words = {"vox", "diff", options.a, options.b};
-  const auto add = [&](const char* option, const std::string& value) {
-    words.insert(words.end(), {option, value});
+  const auto add = [&](const char* option, double tolerance) {
+    if (tolerance != 0) words.insert(words.end(), {option, numberText(tolerance)});
   };
-  if (options.diff.absoluteTolerance != 0)
-    add("--tolerance", numberText(options.diff.absoluteTolerance));
-  if (options.diff.relativeTolerance != 0)
-    add("--relative", numberText(options.diff.relativeTolerance));
-  if (!options.grids.empty()) add("--grids", options.grids);
+  add("--tolerance", options.diff.absoluteTolerance);
+  add("--relative", options.diff.relativeTolerance);
+  add("--tolerance-voxels", options.diff.voxelTolerance);
+  if (!options.grids.empty()) words.insert(words.end(), {"--grids", options.grids});
   if (options.noMetadata) words.emplace_back("--no-metadata");
   return words;
 }
 
-void writeReport(const DiffArguments& options, const FileDiff& diff) {
-  const Comparison comparison{
-      options.a,
-      options.b,
-      options.diff,
-      {{std::filesystem::path(options.a).filename().string(), options.a, options.b, diff}},
-      commandOf(options)};
-  AtomicFile file(options.report, options.force);
-  file.stream() << diffReport(comparison);
-  file.commit();
+/// Writes the page for people.
+void writePage(const DiffArguments& options, std::vector<FilePairDiff> files, bool folders) {
+  if (options.report.empty()) return;
+  AtomicFile output(options.report, options.force);
+  output.stream() << diffReport({.a = options.a,
+                                 .b = options.b,
+                                 .areFolders = folders,
+                                 .options = options.diff,
+                                 .files = std::move(files),
+                                 .command = commandOf(options)});
+  output.commit();
+}
+
+void writeJunitReport(const DiffArguments& options, const JunitSuite& suite) {
+  if (options.junit.empty()) return;
+  AtomicFile output(options.junit, options.force);
+  writeJunit(output.stream(), suite);
+  output.commit();
+}
+
+std::string suiteName(const DiffArguments& options) {
+  return "vox diff " + options.a + ' ' + options.b;
+}
+
+/// Prints differences of files or folders, and writes the report of tests.
+template <class Diff>
+void tell(const DiffArguments& options, const Diff& diff) {
+  writeJunitReport(options, suiteOf(diff, suiteName(options)));
+  if (options.json)
+    std::cout
+        << jsonOf(diff, options.a, options.b).dump(2, ' ', false, Json::error_handler_t::replace)
+        << '\n';
+  else if (!options.quiet)
+    std::cout << textOf(diff);
+}
+
+bool compareFiles(const DiffArguments& options) {
+  const FileDiff diff = diffVdb(options.a, options.b, options.diff);
+  if (!options.output.empty())
+    writeDifference(options.a, options.b, options.diff, options.output, options.force);
+  FilePairDiff files;
+  files.name = options.a;
+  files.inA = files.inB = true;
+  files.diff = diff;
+  writePage(options, {files}, false);
+  tell(options, diff);
+  return diff.same();
+}
+
+bool compareFolders(const DiffArguments& options) {
+  const FolderDiff diff = diffFolders(options.a, options.b, options.diff);
+  writePage(options, diff.files, true);
+  tell(options, diff);
+  const auto isWrong = [](const FilePairDiff& file) { return !file.error.empty(); };
+  const auto wrong = std::find_if(diff.files.begin(), diff.files.end(), isWrong);
+  if (wrong == diff.files.end()) return diff.same();
+  const std::string message =
+      std::to_string(std::count_if(diff.files.begin(), diff.files.end(), isWrong)) + " of " +
+      counted(diff.files.size(), "file") + " could not be compared; the first: " + wrong->error;
+  if (wrong->exitCode == LimitError("").exitCode()) throw LimitError(message);
+  throw InputError(message);
 }
 
 int runDiff(DiffArguments options) {
   options.diff.metadata = !options.noMetadata;
   std::istringstream names(options.grids);
   for (std::string name; std::getline(names, name, ',');) options.diff.onlyGrids.push_back(name);
-  requireNames(options);
-  const FileDiff diff = diffVdb(options.a, options.b, options.diff);
-  if (!options.output.empty())
-    writeDifference(options.a, options.b, options.diff, options.output, options.force);
-  if (!options.report.empty()) writeReport(options, diff);
-  if (options.json) {
-    Json json = {{"a", options.a},
-                 {"b", options.b},
-                 {"same", diff.same()},
-                 {"metadata", toJson(diff.metadata)},
-                 {"grids", Json::array()}};
-    for (const GridDiff& grid : diff.grids) json["grids"].push_back(toJson(grid));
-    std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-  } else if (!options.quiet) {
-    print(diff);
+  const bool folders = areFolders(options);
+  requireNames(options, folders);
+  if (folders) return compareFolders(options) ? 0 : kDifferent;
+  try {
+    return compareFiles(options) ? 0 : kDifferent;
+  } catch (const InputError& error) {
+    writeJunitReport(options, suiteOfError(error.what(), suiteName(options)));
+    throw;
   }
-  return diff.same() ? 0 : kDifferent;
 }
 
 }  // namespace
 
 Action addDiff(CLI::App& app) {
-  const Command command(app, "diff", "Compare two .vdb or .nvdb files");
+  const Command command(app, "diff",
+                        "Compare two .vdb or .nvdb files, or all such files of two folders");
   const auto options = std::make_shared<DiffArguments>();
-  command.add("A", options->a, "OpenVDB file (.vdb) or NanoVDB file (.nvdb)").required();
-  command.add("B", options->b, "OpenVDB file to compare it with").required();
+  command.add("A", options->a, "OpenVDB file (.vdb), NanoVDB file (.nvdb), or folder of such files")
+      .required();
+  command
+      .add("B", options->b,
+           "File or folder to compare it with; files of folders are compared by name")
+      .required();
   command
       .add("--tolerance", options->diff.absoluteTolerance,
            "Values may differ by this much (default: 0)")
@@ -217,6 +199,12 @@ Action addDiff(CLI::App& app) {
            "Values may differ, in addition, by this fraction of the larger one (default: "
            "0)")
       .type("R")
+      .group("Comparison");
+  command
+      .add("--tolerance-voxels", options->diff.voxelTolerance,
+           "Active voxels may be this far from those of the other grid, in voxels (default: 0); "
+           "values are compared where both are active")
+      .type("D")
       .group("Comparison");
   command.add("--grids", options->grids, "Grids to compare, with commas (default: all)")
       .type("LIST")
@@ -229,6 +217,11 @@ Action addDiff(CLI::App& app) {
       .type("OUT.vdb")
       .group("Output");
   command
+      .add("--junit", options->junit,
+           "Write a report that CI systems show: a test for each grid, of folders for each file")
+      .type("OUT.xml")
+      .group("Output");
+  command
       .add("--report", options->report,
            "Write a page for people: what differs, with pictures. It needs no other file")
       .type("OUT.html")
@@ -238,7 +231,7 @@ Action addDiff(CLI::App& app) {
   command.addFlag("--json", options->json, "Print JSON").group("Output");
   command.addFlag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
       .group("Output");
-  command.footer("Exit code 0: the same; 1: different.");
+  command.footer("Exit code 0: the same; 1: different; 3: a file cannot be read.");
   return [options] { return runDiff(*options); };
 }
 

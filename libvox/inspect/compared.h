@@ -17,6 +17,9 @@
 
 namespace vox {
 
+/// Whether a grid is to be compared.
+bool isChosen(const std::string& name, const DiffOptions& options);
+
 /// Calls visit(name, a, b) for each grid to compare, in order of names. If only one of the files
 /// has a grid of that name, the other argument is null.
 /// @throws InputError  a name of options.onlyGrids is in neither

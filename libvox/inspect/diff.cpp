@@ -10,6 +10,7 @@
 #include "libvox/inspect/nearest_active.h"
 #include "libvox/inspect/tree_pair.h"
 #include "libvox/io/read_vdb.h"
+#include "libvox/io/vdb_index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -276,16 +277,9 @@ std::vector<TextDiff> diffMetadata(const openvdb::MetaMap& a, const openvdb::Met
   return found;
 }
 
-}  // namespace
-
-bool FileDiff::same() const {
-  return metadata.empty() &&
-         std::all_of(grids.begin(), grids.end(), [](const GridDiff& grid) { return grid.same(); });
-}
-
-GridDiff diffGrids(const openvdb::GridBase& a, const openvdb::GridBase& b,
+/// All but the voxels and their values.
+GridDiff diffHeads(const openvdb::GridBase& a, const openvdb::GridBase& b,
                    const DiffOptions& options) {
-  const Tolerance tolerance(options);
   GridDiff diff;
   diff.name = a.getName();
   diff.inA = diff.inB = true;
@@ -296,16 +290,114 @@ GridDiff diffGrids(const openvdb::GridBase& a, const openvdb::GridBase& b,
     diff.properties.push_back(
         {"transform", transformText(a.transform()), transformText(b.transform())});
   if (options.metadata) diff.metadata = diffMetadata(a, b);
+  return diff;
+}
 
+FileDiff diffFiles(const VdbFile& a, const VdbFile& b, const DiffOptions& options) {
+  FileDiff diff;
+  if (options.metadata) diff.metadata = diffMetadata(*a.metadata, *b.metadata);
+  forEachPair(a, b, options, [&](const std::string& name, const auto& gridA, const auto& gridB) {
+    if (gridA && gridB)
+      diff.grids.push_back(diffGrids(*gridA, *gridB, options));
+    else
+      diff.grids.emplace_back();
+    GridDiff& grid = diff.grids.back();
+    grid.name = name;
+    grid.inA = gridA != nullptr;
+    grid.inB = gridB != nullptr;
+    const openvdb::GridBase& any = gridA ? *gridA : *gridB;
+    if (!gridA || !gridB) grid.topology.active[gridA ? 0 : 1] = any.activeVoxelCount();
+  });
+  return diff;
+}
+
+// Files of libvox, by their bytes
+
+/// Number of active voxels, as a file says it.
+std::optional<std::uint64_t> storedVoxelCount(const openvdb::GridBase& head) {
+  const auto count =
+      head.getMetadata<openvdb::Int64Metadata>(openvdb::GridBase::META_FILE_VOXEL_COUNT);
+  if (!count || count->value() < 0) return std::nullopt;
+  return static_cast<std::uint64_t>(count->value());
+}
+
+/// The difference of two grids that have the same tree; nothing if it takes more than their heads.
+std::optional<GridDiff> diffOfSame(const openvdb::GridBase& a, const openvdb::GridBase& b,
+                                   const DiffOptions& options) {
+  const std::optional<std::uint64_t> count = storedVoxelCount(a);
+  if (!count || !a.apply<ComparedTypes>([](const auto&) {})) return std::nullopt;
+  GridDiff diff = diffHeads(a, b, options);
+  diff.topology.active = {*count, *count};
+  diff.topology.allowed = options.voxelTolerance;
+  if (a.isType<openvdb::MaskGrid>()) return diff;
+  diff.values.emplace();
+  diff.values->compared = *count;
+  return diff;
+}
+
+/// The numbers of the grids of a file by their names; nothing if two have the same name.
+std::map<std::string, std::size_t> numbersByName(const VdbIndex& file) {
+  std::map<std::string, std::size_t> numbers;
+  for (std::size_t i = 0; i < file.grids.size(); ++i)
+    if (!numbers.emplace(file.grids[i].descriptor->gridName(), i).second) return {};
+  return numbers;
+}
+
+/// Grids of two sound files of libvox that have the same trees.
+std::map<std::string, GridDiff> sameTrees(const VdbIndex& a, const VdbIndex& b,
+                                          const DiffOptions& options) {
+  const std::map<std::string, std::size_t> numbersB = numbersByName(b);
+  std::map<std::string, GridDiff> same;
+  for (const auto& [name, i] : numbersByName(a)) {
+    const auto found = numbersB.find(name);
+    if (found == numbersB.end() || !isChosen(name, options)) continue;
+    if (!haveSameTree(a, i, b, found->second)) continue;
+    const std::optional<GridDiff> diff =
+        diffOfSame(*a.grids[i].head, *b.grids[found->second].head, options);
+    if (diff) same.emplace(name, *diff);
+  }
+  return same;
+}
+
+/// Whether these are all grids of a file that are to be compared.
+bool areAll(const std::map<std::string, GridDiff>& grids, const VdbIndex& file,
+            const DiffOptions& options) {
+  return std::all_of(file.grids.begin(), file.grids.end(), [&](const VdbIndexGrid& grid) {
+    const std::string& name = grid.descriptor->gridName();
+    return grids.contains(name) || !isChosen(name, options);
+  });
+}
+
+/// The options for all grids but some, which are no longer asked for by name.
+DiffOptions without(const std::map<std::string, GridDiff>& grids, DiffOptions options) {
+  std::erase_if(options.onlyGrids, [&](const std::string& name) { return grids.contains(name); });
+  return options;
+}
+
+}  // namespace
+
+bool FileDiff::same() const {
+  return metadata.empty() &&
+         std::all_of(grids.begin(), grids.end(), [](const GridDiff& grid) { return grid.same(); });
+}
+
+GridDiff diffGrids(const openvdb::GridBase& a, const openvdb::GridBase& b,
+                   const DiffOptions& options) {
+  const Tolerance tolerance(options);
+  GridDiff diff = diffHeads(a, b, options);
+  const auto take = [&](TopologyDiff topology) {
+    diff.topology = std::move(topology);
+    diff.topology.allowed = options.voxelTolerance;
+  };
   if (a.type() != b.type()) {
-    diff.topology = compareTrees(*topologyOf(a), *topologyOf(b), tolerance).topology;
+    take(compareTrees(*topologyOf(a), *topologyOf(b), tolerance).topology);
     return diff;
   }
   const bool known = a.apply<ComparedTypes>([&](const auto& typedA) {
     using Grid = std::decay_t<decltype(typedA)>;
     const auto& typedB = static_cast<const Grid&>(b);
     const Findings found = compareTrees(typedA.tree(), typedB.tree(), tolerance);
-    diff.topology = found.topology;
+    take(found.topology);
     if constexpr (!std::is_same_v<Grid, openvdb::MaskGrid>) {
       diff.values = found.values;
       if (!differenceOf(typedA.background(), typedB.background(), tolerance).counts) return;
@@ -321,23 +413,26 @@ GridDiff diffGrids(const openvdb::GridBase& a, const openvdb::GridBase& b,
 FileDiff diffVdb(const std::filesystem::path& a, const std::filesystem::path& b,
                  const DiffOptions& options) {
   const Tolerance checked(options);
-  const VdbFile fileA = readVdb(a);
-  const VdbFile fileB = readVdb(b);
+  const bool ownA = isSoundOwnVdb(a);
+  const bool ownB = isSoundOwnVdb(b);
+  if (!ownA || !ownB) return diffFiles(readVdb(a), readVdb(b), options);
+  const VdbIndex indexA = readVdbIndex(a);
+  const VdbIndex indexB = readVdbIndex(b);
+  const std::map<std::string, GridDiff> same = sameTrees(indexA, indexB, options);
+  const DiffOptions others = without(same, options);
   FileDiff diff;
-  if (options.metadata) diff.metadata = diffMetadata(*fileA.metadata, *fileB.metadata);
-  forEachPair(fileA, fileB, options,
-              [&](const std::string& name, const auto& gridA, const auto& gridB) {
-                if (gridA && gridB)
-                  diff.grids.push_back(diffGrids(*gridA, *gridB, options));
-                else
-                  diff.grids.emplace_back();
-                GridDiff& grid = diff.grids.back();
-                grid.name = name;
-                grid.inA = gridA != nullptr;
-                grid.inB = gridB != nullptr;
-                const openvdb::GridBase& any = gridA ? *gridA : *gridB;
-                if (!gridA || !gridB) grid.topology.active[gridA ? 0 : 1] = any.activeVoxelCount();
-              });
+  if ((others.onlyGrids.empty() || options.gridsMayLack) && areAll(same, indexA, options) &&
+      areAll(same, indexB, options)) {
+    if (options.metadata) diff.metadata = diffMetadata(*indexA.metadata, *indexB.metadata);
+  } else {
+    const auto wants = [&](const std::string& name) {
+      return isChosen(name, options) && !same.contains(name);
+    };
+    diff = diffFiles(readOwnVdb(a, wants), readOwnVdb(b, wants), others);
+  }
+  for (const auto& [name, grid] : same) diff.grids.push_back(grid);
+  std::sort(diff.grids.begin(), diff.grids.end(),
+            [](const GridDiff& x, const GridDiff& y) { return x.name < y.name; });
   return diff;
 }
 

@@ -17,6 +17,8 @@ struct DiffOptions {
   double relativeTolerance = 0;
   bool metadata = true;                ///< compare metadata, too
   std::vector<std::string> onlyGrids;  ///< compare these; empty: all
+  bool gridsMayLack = false;           ///< it is no error if neither file has one of them
+  double voxelTolerance = 0;           ///< voxels of one may be this far from those of the other
 };
 
 using VoxelIndex = std::array<std::int32_t, 3>;
@@ -31,8 +33,9 @@ struct TopologyDiff {
   /// one is from the other. Exact, except where whole tiles are in one only: within 1 %. Infinite
   /// if one set is empty and the other is not.
   double distance = 0;
+  double allowed = 0;  ///< the distance that is no difference: DiffOptions::voxelTolerance
 
-  bool same() const { return onlyA == 0 && onlyB == 0; }
+  bool same() const { return (onlyA == 0 && onlyB == 0) || distance <= allowed; }
 };
 
 /// How the values of two grids of the same type differ.
@@ -85,7 +88,9 @@ GridDiff diffGrids(const openvdb::GridBase& a, const openvdb::GridBase& b,
                    const DiffOptions& options);
 
 /// Compares two files grid by grid, by name. The UUID of the files and the statistics that OpenVDB
-/// keeps as metadata (file_...) do not count.
+/// keeps as metadata (file_...) do not count. If libvox wrote both files, and their hashes are
+/// right, grids whose nodes and values are the same bytes are not unpacked. All other files are
+/// read as a whole, so damage is found even where both have the same.
 /// @throws UsageError  a tolerance is negative or not finite
 /// @throws InputError  a file cannot be read; a grid of `onlyGrids` is in neither
 FileDiff diffVdb(const std::filesystem::path& a, const std::filesystem::path& b,

@@ -6,11 +6,14 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace vox {
 
@@ -30,15 +33,15 @@ class OpenFile {
 
   int descriptor() const { return descriptor_; }
 
-  /// Reads bytes [begin, end) of the file to the same places of `bytes`; false if it cannot. Any
-  /// thread may call it.
-  bool read(char* bytes, std::size_t begin, std::size_t end) const {
-    while (begin < end) {
-      const ssize_t count =
-          ::pread(descriptor_, bytes + begin, end - begin, static_cast<off_t>(begin));
+  /// Reads `size` bytes from a place of the file on; false if it cannot. Any thread may call it.
+  bool read(char* bytes, std::uint64_t from, std::size_t size) const {
+    while (size > 0) {
+      const ssize_t count = ::pread(descriptor_, bytes, size, static_cast<off_t>(from));
       if (count < 0 && errno == EINTR) continue;
       if (count <= 0) return false;
-      begin += static_cast<std::size_t>(count);
+      bytes += count;
+      from += static_cast<std::uint64_t>(count);
+      size -= static_cast<std::size_t>(count);
     }
     return true;
   }
@@ -72,7 +75,7 @@ FileContent::FileContent(const fs::path& file, std::size_t size)
   constexpr std::size_t kBlock = std::size_t{1} << 21;
   std::atomic<bool> whole{true};
   parallelForRanges(size, kBlock, [&](std::size_t begin, std::size_t end) {
-    if (!in.read(bytes_.get(), begin, end)) whole = false;
+    if (!in.read(bytes_.get() + begin, begin, end - begin)) whole = false;
   });
   if (!whole) throw InputError(file.string() + ": could be read only in part");
 }
@@ -86,6 +89,29 @@ FileContent contentsOf(const fs::path& file) {
   if (size > availableMemory())
     throw LimitError(name + ": " + formatBytes(size) + " do not fit into memory");
   return {file, size};
+}
+
+bool haveSameBytes(const fs::path& a, std::uint64_t fromA, const fs::path& b, std::uint64_t fromB,
+                   std::uint64_t size) {
+  const OpenFile fileA(a.c_str());
+  const OpenFile fileB(b.c_str());
+  for (const auto& [file, path] : {std::pair(&fileA, &a), std::pair(&fileB, &b)})
+    if (file->descriptor() < 0)
+      throw InputError(path->string() + ": cannot be opened; check its permissions");
+  constexpr std::uint64_t kBlock = std::uint64_t{1} << 18;
+  const std::uint64_t count = (size + kBlock - 1) / kBlock;
+  std::atomic<bool> whole{true};
+  const std::uint64_t firstOther = lowestWhere(count, 1, [&](std::uint64_t i) {
+    const auto bytes = static_cast<std::size_t>(std::min(kBlock, size - i * kBlock));
+    std::vector<char> blockA(bytes);
+    std::vector<char> blockB(bytes);
+    if (!fileA.read(blockA.data(), fromA + i * kBlock, bytes) ||
+        !fileB.read(blockB.data(), fromB + i * kBlock, bytes))
+      whole = false;
+    return !whole || blockA != blockB;
+  });
+  if (!whole) throw InputError(a.string() + " or " + b.string() + ": could be read only in part");
+  return firstOther == count;
 }
 
 std::string lowerExtension(const fs::path& file) {

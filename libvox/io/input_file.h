@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -34,6 +35,12 @@ class FileContent {
 /// @throws InputError  as requireInputFile, or it cannot be read
 /// @throws LimitError  it is larger than the available memory
 FileContent contentsOf(const std::filesystem::path& file);
+
+/// Whether `size` bytes of two files, from these places on, are the same. Reads in parallel, and
+/// stops soon after a difference.
+/// @throws InputError  they cannot be read
+bool haveSameBytes(const std::filesystem::path& a, std::uint64_t fromA,
+                   const std::filesystem::path& b, std::uint64_t fromB, std::uint64_t size);
 
 /// Extension with its dot, in lower case, such as ".obj".
 std::string lowerExtension(const std::filesystem::path& file);

@@ -34,13 +34,20 @@ void requireVdb(const std::filesystem::path& file) {
 }
 
 using Visit = std::function<void(const openvdb::GridBase::Ptr&)>;
+using Wants = std::function<bool(const std::string&)>;
+
+bool wantsAll(const std::string& /*name*/) {
+  return true;
+}
 
 /// Reads a file; OpenVDB loads the values of leaves when they are first used. It trusts the file,
 /// and may abort if that is damaged.
-openvdb::MetaMap readOnDemand(const std::filesystem::path& file, const Visit& visit) {
+openvdb::MetaMap readOnDemand(const std::filesystem::path& file, const Wants& wants,
+                              const Visit& visit) {
   openvdb::io::File vdb(file.string());
   vdb.open(/*delayLoad=*/true);
-  for (auto name = vdb.beginName(); name != vdb.endName(); ++name) visit(vdb.readGrid(*name));
+  for (auto name = vdb.beginName(); name != vdb.endName(); ++name)
+    if (wants(*name)) visit(vdb.readGrid(*name));
   return *vdb.getMetadata();
 }
 
@@ -54,16 +61,13 @@ openvdb::MetaMap readWhole(const std::filesystem::path& file, const Visit& visit
   return *vdb.getMetadata();
 }
 
-openvdb::MetaMap read(const std::filesystem::path& file, const Visit& visit) {
-  const bool trusted = isSoundOwnVdb(file);
+/// @throws InputError  for whatever OpenVDB throws
+openvdb::MetaMap namingFile(const std::filesystem::path& file,
+                            const std::function<openvdb::MetaMap()>& work) {
   openvdb::initialize();
   openvdb::logging::setLevel(openvdb::logging::Level::Fatal);
-  constexpr std::uintmax_t kMostWhole = std::uintmax_t{256} << 20U;
-  const bool nano = isNvdb(file);
-  const bool onDemand = trusted || (!nano && std::filesystem::file_size(file) > kMostWhole);
   try {
-    if (nano) return readNvdb(file, visit), openvdb::MetaMap();
-    return onDemand ? readOnDemand(file, visit) : readWhole(file, visit);
+    return work();
   } catch (const Error&) {
     throw;
   } catch (const std::ios_base::failure&) {
@@ -75,6 +79,17 @@ openvdb::MetaMap read(const std::filesystem::path& file, const Visit& visit) {
     throw InputError(file.string() +
                      ": cannot be read as OpenVDB: " + std::string(wrong.what()).substr(0, kMost));
   }
+}
+
+openvdb::MetaMap read(const std::filesystem::path& file, const Visit& visit) {
+  const bool trusted = isSoundOwnVdb(file);
+  constexpr std::uintmax_t kMostWhole = std::uintmax_t{256} << 20U;
+  const bool nano = isNvdb(file);
+  const bool onDemand = trusted || (!nano && std::filesystem::file_size(file) > kMostWhole);
+  return namingFile(file, [&] {
+    if (nano) return readNvdb(file, visit), openvdb::MetaMap();
+    return onDemand ? readOnDemand(file, wantsAll, visit) : readWhole(file, visit);
+  });
 }
 
 /// Gives each grid a name that no other grid of the file has.
@@ -108,6 +123,17 @@ VdbFile readVdb(const std::filesystem::path& file) {
   Namer namer;
   all.metadata = std::make_shared<openvdb::MetaMap>(read(
       file, [&](const openvdb::GridBase::Ptr& grid) { all.grids.push_back(namer.named(grid)); }));
+  return all;
+}
+
+VdbFile readOwnVdb(const std::filesystem::path& file, const Wants& wants) {
+  VdbFile all;
+  Namer namer;
+  all.metadata = std::make_shared<openvdb::MetaMap>(namingFile(file, [&] {
+    return readOnDemand(file, wants, [&](const openvdb::GridBase::Ptr& grid) {
+      all.grids.push_back(namer.named(grid));
+    });
+  }));
   return all;
 }
 

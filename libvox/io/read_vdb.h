@@ -32,6 +32,11 @@ struct VdbFile {
 /// @throws LimitError  a NanoVDB grid does not fit into memory
 VdbFile readVdb(const std::filesystem::path& file);
 
+/// Reads some grids of a file for which isSoundOwnVdb is true.
+/// @param wants  called with the names of grids
+VdbFile readOwnVdb(const std::filesystem::path& file,
+                   const std::function<bool(const std::string&)>& wants);
+
 /// Whether libvox wrote a .vdb file, and it is as it was written. Reads the whole file if so.
 /// @throws InputError  the file is missing or no OpenVDB file, or libvox wrote it and it is damaged
 bool isSoundOwnVdb(const std::filesystem::path& file);

@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/grid/openvdb.h"
+#include "libvox/io/input_file.h"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/GridDescriptor.h>
@@ -39,6 +40,7 @@ class IndexArchive : public openvdb::io::Archive {
       VdbIndexGrid grid;
       auto head = descriptor.read(stream_);
       grid.compression = readHead(descriptor, *head);
+      grid.treePosition = stream_.tellg();
       grid.head = head;
       descriptor.seekToEnd(stream_);
       grid.descriptor = std::make_shared<openvdb::io::GridDescriptor>(descriptor);
@@ -83,6 +85,21 @@ void named(const std::filesystem::path& file, const std::function<void()>& work)
   }
 }
 
+std::int64_t treeBytes(const VdbIndexGrid& grid) {
+  return grid.descriptor->getEndPos() - grid.treePosition;
+}
+
+/// Whether both grids are stored in one way.
+bool areStoredAlike(const VdbIndex& a, const VdbIndexGrid& one, const VdbIndex& b,
+                    const VdbIndexGrid& other) {
+  const auto& x = *one.descriptor;
+  const auto& y = *other.descriptor;
+  return a.format == b.format && x.gridType() == y.gridType() &&
+         one.compression == other.compression && x.saveFloatAsHalf() == y.saveFloatAsHalf() &&
+         one.head->getGridClass() == other.head->getGridClass() && !x.isInstance() &&
+         !y.isInstance();
+}
+
 }  // namespace
 
 VdbIndex readVdbIndex(const std::filesystem::path& file) {
@@ -100,6 +117,16 @@ std::shared_ptr<openvdb::GridBase> readNodes(const VdbIndex& index, std::size_t 
     IndexArchive(index.file).readNodes(descriptor, *read);
   });
   return read;
+}
+
+bool haveSameTree(const VdbIndex& a, std::size_t gridA, const VdbIndex& b, std::size_t gridB) {
+  const VdbIndexGrid& one = a.grids[gridA];
+  const VdbIndexGrid& other = b.grids[gridB];
+  const std::int64_t size = treeBytes(one);
+  if (!areStoredAlike(a, one, b, other) || size != treeBytes(other) || size <= 0) return false;
+  return haveSameBytes(a.file, static_cast<std::uint64_t>(one.treePosition), b.file,
+                       static_cast<std::uint64_t>(other.treePosition),
+                       static_cast<std::uint64_t>(size));
 }
 
 }  // namespace vox

@@ -15,6 +15,7 @@ struct VdbIndexGrid {
   std::shared_ptr<const openvdb::io::GridDescriptor> descriptor;
   std::shared_ptr<const openvdb::GridBase> head;  ///< metadata and transform, with an empty tree
   std::uint32_t compression = 0;                  ///< flags of openvdb/io/Compression.h
+  std::int64_t treePosition = 0;                  ///< in the file: first nodes, then values
 };
 
 /// What a .vdb file holds, without nodes and values.
@@ -33,5 +34,11 @@ VdbIndex readVdbIndex(const std::filesystem::path& file);
 /// transform, nodes, tiles, and which voxels of leaves are active.
 /// @throws InputError  the file cannot be read
 std::shared_ptr<openvdb::GridBase> readNodes(const VdbIndex& index, std::size_t grid);
+
+/// Whether the nodes and values of two grids are the same bytes of their files, to be read in the
+/// same way. Then the grids have the same voxels with the same values. Reads both, in parallel, and
+/// holds a few blocks at a time.
+/// @throws InputError  a file cannot be read
+bool haveSameTree(const VdbIndex& a, std::size_t gridA, const VdbIndex& b, std::size_t gridB);
 
 }  // namespace vox

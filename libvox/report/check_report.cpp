@@ -2,6 +2,7 @@
 
 #include "libvox/report/check_report.h"
 
+#include "libvox/core/markup.h"
 #include "libvox/inspect/topology.h"
 #include "libvox/report/grid_pictures.h"
 #include "libvox/report/html.h"

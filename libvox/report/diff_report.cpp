@@ -3,6 +3,7 @@
 #include "libvox/report/diff_report.h"
 
 #include "libvox/core/error.h"
+#include "libvox/core/markup.h"
 #include "libvox/inspect/compared.h"
 #include "libvox/io/read_vdb.h"
 #include "libvox/report/best_views.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -134,10 +136,14 @@ void addPictures(const GridDiff& diff, const GridBase::Ptr& a, const GridBase::P
     addDifference(a, b, options, id, reserved, shown, body);
 }
 
-void addFile(const ComparedFiles& file, const DiffOptions& options, const std::string& id,
+void addFile(const Comparison& comparison, const FilePairDiff& file, const std::string& id,
              std::size_t reserved, Body& body) {
-  const VdbFile a = readVdb(file.a);
-  const VdbFile b = readVdb(file.b);
+  const auto pathIn = [&](const std::filesystem::path& place) {
+    return comparison.areFolders ? place / file.name : place;
+  };
+  const DiffOptions& options = comparison.options;
+  const VdbFile a = readVdb(pathIn(comparison.a));
+  const VdbFile b = readVdb(pathIn(comparison.b));
   auto diff = file.diff.grids.begin();
   Shown shown;
   forEachPair(a, b, options,
@@ -167,19 +173,19 @@ std::string headOf(const Comparison& comparison) {
 
 bool Comparison::same() const {
   return std::all_of(files.begin(), files.end(),
-                     [](const ComparedFiles& file) { return file.same(); });
+                     [](const FilePairDiff& file) { return file.same(); });
 }
 
 std::string diffReport(const Comparison& comparison) {
-  const bool isOne = comparison.files.size() == 1;
+  const bool isOne = !comparison.areFolders;
   Body body;
   body.add(headOf(comparison));
   if (!isOne) body.add(indexOf(comparison));
   // Text comes first where there is not room for all.
   std::size_t reserved = kReportStyle.size() + kViewerScript.size();
-  for (const ComparedFiles& file : comparison.files) reserved += tablesOf(file).size();
+  for (const FilePairDiff& file : comparison.files) reserved += tablesOf(file).size();
   for (std::size_t i = 0; i < comparison.files.size(); ++i) {
-    const ComparedFiles& file = comparison.files[i];
+    const FilePairDiff& file = comparison.files[i];
     const std::string tables = tablesOf(file);
     reserved -= tables.size();
     if (!isOne && file.same()) continue;
@@ -187,8 +193,7 @@ std::string diffReport(const Comparison& comparison) {
     body.add(isOne ? "<h2>Grids</h2>\n"
                    : "<h2 id=\"" + id + "\">" + escaped(file.name) + "</h2>\n");
     body.add(tables);
-    if (!file.same() && !file.a.empty() && !file.b.empty())
-      addFile(file, comparison.options, id, reserved, body);
+    if (file.inA && file.inB && file.error.empty()) addFile(comparison, file, id, reserved, body);
   }
   return page(std::string(comparison.same() ? "Same" : "Different") + ": " + comparison.a +
                   " and " + comparison.b,

@@ -1,27 +1,18 @@
 #pragma once
 
-#include "libvox/inspect/diff.h"
+#include "libvox/inspect/diff_folders.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace vox {
 
-/// Two files of a name, and what differs.
-struct ComparedFiles {
-  std::string name;
-  std::filesystem::path a, b;  ///< empty: there is no such file
-  FileDiff diff;               ///< of both
-
-  bool same() const { return !a.empty() && !b.empty() && diff.same(); }
-};
-
 /// What was compared with what.
 struct Comparison {
-  std::string a, b;  ///< files or folders, as typed
+  std::string a, b;         ///< files or folders, as typed
+  bool areFolders = false;  ///< then files lie below them, by their names
   DiffOptions options;
-  std::vector<ComparedFiles> files;
+  std::vector<FilePairDiff> files;
   std::vector<std::string> command;  ///< words that make the same comparison
 
   bool same() const;

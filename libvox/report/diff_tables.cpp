@@ -2,6 +2,7 @@
 
 #include "libvox/report/diff_tables.h"
 
+#include "libvox/core/markup.h"
 #include "libvox/report/html.h"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ std::string textTable(const std::vector<TextDiff>& texts, const std::string& wha
 }
 
 std::string topologyText(const TopologyDiff& topology) {
-  if (topology.same()) return {};
+  if (topology.onlyA == 0 && topology.onlyB == 0) return {};
   const std::string apart = std::isfinite(topology.distance)
                                 ? " They lie up to " + shortNumber(topology.distance) +
                                       (topology.distance == 1 ? " voxel" : " voxels") +
@@ -84,9 +85,10 @@ std::string valueText(const ValueDiff& values) {
   return html;
 }
 
-const char* stateOf(const ComparedFiles& file) {
-  if (file.a.empty()) return "only in B";
-  if (file.b.empty()) return "only in A";
+const char* stateOf(const FilePairDiff& file) {
+  if (!file.inA) return "only in B";
+  if (!file.inB) return "only in A";
+  if (!file.error.empty()) return "not compared";
   return file.diff.same() ? "same" : "differs";
 }
 
@@ -98,13 +100,13 @@ std::uint64_t differingGrids(const FileDiff& diff) {
 }  // namespace
 
 std::string verdictOf(const Comparison& comparison) {
-  if (comparison.files.size() != 1) {
+  if (comparison.areFolders) {
     const auto differing = static_cast<std::uint64_t>(
         std::count_if(comparison.files.begin(), comparison.files.end(),
-                      [](const ComparedFiles& file) { return !file.same(); }));
+                      [](const FilePairDiff& file) { return !file.same(); }));
     if (differing == 0) return plural(comparison.files.size(), "file") + " compared.";
     return grouped(differing) + " of " + plural(comparison.files.size(), "file") +
-           " differ or are in one folder only.";
+           " differ, are in one folder only, or cannot be compared.";
   }
   const FileDiff& diff = comparison.files.front().diff;
   const std::uint64_t differing = differingGrids(diff);
@@ -122,7 +124,7 @@ std::string indexOf(const Comparison& comparison) {
       "<th scope=\"col\">verdict</th><th scope=\"col\">grids that "
       "differ</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < comparison.files.size(); ++i) {
-    const ComparedFiles& file = comparison.files[i];
+    const FilePairDiff& file = comparison.files[i];
     const std::string name = escaped(file.name);
     html += "<tr><td>" +
             (file.same() ? name : "<a href=\"#file-" + std::to_string(i) + "\">" + name + "</a>") +
@@ -132,10 +134,11 @@ std::string indexOf(const Comparison& comparison) {
   return html + "</tbody></table></div>\n";
 }
 
-std::string tablesOf(const ComparedFiles& file) {
-  if (file.a.empty() || file.b.empty())
-    return std::string("<p class=\"bad\">This file is only in ") + (file.a.empty() ? 'B' : 'A') +
+std::string tablesOf(const FilePairDiff& file) {
+  if (!file.inA || !file.inB)
+    return std::string("<p class=\"bad\">This file is only in ") + (file.inA ? 'A' : 'B') +
            ".</p>\n";
+  if (!file.error.empty()) return "<p class=\"bad\">" + escaped(file.error) + "</p>\n";
   std::string html =
       "<div class=\"table\"><table><thead><tr><th scope=\"col\">grid</th>"
       "<th scope=\"col\">verdict</th>";

@@ -2,6 +2,7 @@
 
 #include "libvox/report/histogram.h"
 
+#include "libvox/core/markup.h"
 #include "libvox/report/html.h"
 
 #include <algorithm>
@@ -71,7 +72,7 @@ std::string histogramFigure(const Histogram& histogram) {
                                   grouped(*highest) + ", lie between " + range + '.';
   std::ostringstream svg;
   svg << "<figure><svg class=\"bars\" viewBox=\"0 0 " << kWidth << ' ' << kHeight + kAxis
-      << "\" role=\"img\" aria-label=\"" << escaped(description) << "\">";
+      << "\" role=\"img\" aria-label=" << escapedValue(description) << ">";
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
     if (histogram.counts[i] == 0) continue;
     const double height = std::max(

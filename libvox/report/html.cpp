@@ -1,4 +1,4 @@
-// Texts, numbers and bytes in HTML.
+// Numbers and bytes in HTML.
 
 #include "libvox/report/html.h"
 
@@ -7,78 +7,6 @@
 #include <sstream>
 
 namespace vox {
-namespace {
-
-constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
-
-/// Length of the character of UTF-8 that a text begins with; 0 if it begins with none.
-/// Source: RFC 3629, section 4.
-std::size_t characterLength(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const auto continues = [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i <= last; ++i)
-      if ((byte(i) & 0xC0U) != 0x80U) return false;
-    return true;
-  };
-  const unsigned lead = byte(0);
-  if (lead < 0x80) return 1;
-  if (lead >= 0xC2 && lead <= 0xDF) return continues(1, 1) ? 2 : 0;
-  if ((lead & 0xF0U) == 0xE0) {
-    const bool overlong = lead == 0xE0 && byte(1) < 0xA0;
-    const bool surrogate = lead == 0xED && byte(1) >= 0xA0;
-    return continues(1, 2) && !overlong && !surrogate ? 3 : 0;
-  }
-  if (lead >= 0xF0 && lead <= 0xF4) {
-    const bool overlong = lead == 0xF0 && byte(1) < 0x90;
-    const bool beyond = lead == 0xF4 && byte(1) >= 0x90;
-    return continues(1, 3) && !overlong && !beyond ? 4 : 0;
-  }
-  return 0;
-}
-
-/// A character of one byte.
-std::string_view entity(const char& character) {
-  switch (character) {
-    case '&':
-      return "&amp;";
-    case '<':
-      return "&lt;";
-    case '>':
-      return "&gt;";
-    case '"':
-      return "&quot;";
-    case '\'':
-      return "&#39;";
-    case '\t':
-    case '\n':
-      return {&character, 1};
-    default:
-      constexpr char kDelete = 0x7F;
-      return character < ' ' || character == kDelete ? kReplacement
-                                                     : std::string_view(&character, 1);
-  }
-}
-
-}  // namespace
-
-std::string escaped(std::string_view text) {
-  std::string html;
-  html.reserve(text.size());
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = characterLength(text.substr(i));
-    if (length == 0)
-      html += kReplacement;
-    else if (length == 1)
-      html += entity(text[i]);
-    else
-      html += text.substr(i, length);
-    i += length == 0 ? 1 : length;
-  }
-  return html;
-}
-
 std::string base64(std::string_view bytes) {
   constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -6,10 +6,6 @@
 
 namespace vox {
 
-/// Any text as text of HTML, also within attributes: characters with a meaning become entities;
-/// control characters and bytes that are no UTF-8 become the replacement character.
-std::string escaped(std::string_view text);
-
 /// Bytes as a data URI. Source: RFC 2397, RFC 4648.
 /// @param type  such as image/png
 std::string dataUri(std::string_view bytes, std::string_view type);

@@ -2,6 +2,7 @@
 
 #include "libvox/report/page.h"
 
+#include "libvox/core/markup.h"
 #include "libvox/core/version.h"
 #include "libvox/report/html.h"
 

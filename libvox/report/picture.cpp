@@ -2,6 +2,7 @@
 
 #include "libvox/report/picture.h"
 
+#include "libvox/core/markup.h"
 #include "libvox/io/write_png.h"
 #include "libvox/report/html.h"
 
@@ -54,8 +55,8 @@ std::string figureOf(const Picture& picture) {
   writePng(png, picture.image);
   return "<figure><div class=\"picture\"><img src=\"" + dataUri(png.str(), "image/png") +
          "\" width=\"" + std::to_string(picture.image.width) + "\" height=\"" +
-         std::to_string(picture.image.height) + "\" alt=\"" + escaped(picture.description) + "\">" +
-         circlesOf(picture) + "</div><figcaption><b>" + escaped(picture.title) + "</b> " +
+         std::to_string(picture.image.height) + "\" alt=" + escapedValue(picture.description) +
+         ">" + circlesOf(picture) + "</div><figcaption><b>" + escaped(picture.title) + "</b> " +
          escaped(picture.description) + "</figcaption></figure>\n";
 }
 
