@@ -15,6 +15,7 @@ dpkg-deb --extract vox_*.deb root
 root/usr/bin/vox convert "$scenes/torus.toml" -o torus.vdb --dim 30 --verify
 [ -x root/usr/share/vox/cluster/slurm.sh ]
 python3 -m zipfile -l root/usr/share/vox/blender/vox_addon.zip | grep vox_addon/blender_manifest.toml
+[ -r root/usr/share/vox/ci/action.yml ]
 gzip -dc root/usr/share/man/man1/vox.1.gz | grep '^.SS vox convert'
 
 # Completion: commands, options, values.

@@ -1,40 +1,25 @@
 #!/usr/bin/env bash
 # Converts every scene, and one per family of options, and compares the voxels with the reviewed
-# grids of tests/reference. Usage: reference.sh VOX SOURCE [--renew]
+# grids of tests/reference. Usage: reference.sh VOX SOURCE REPORT|--renew
+# In the folder REPORT there is then a page for people, and a report for CI.
 # With --renew, the grids that differ are replaced, with the pictures beside them, and what has changed
 # is printed: look at all of that before you commit it.
 set -uo pipefail
 vox=$(realpath "$1")
 source=$(realpath "$2")
-renew=${3:-}
+report=$3
+kept=$source/tests/reference
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 wrong=0
-count=0
+
+# compare A B OPTIONS...: Metadata hold the version of vox; whole files are compared by the test of
+# the command line. Values are rounded as libraries do.
+compare() { "$vox" diff "$@" --no-metadata --tolerance 1e-5; }
 
 # reference NAME SCENE OPTIONS...: one grid.
 reference() {
-  local name=$1 scene=$2 kept="$source/tests/reference/$1.vdb"
-  shift 2
-  count=$((count + 1))
-  if ! "$vox" convert "$source/scenes/$scene" -o "$folder/$name.vdb" --quiet "$@"; then
-    wrong=$((wrong + 1))
-    return
-  fi
-  if [ -e "$kept" ]; then
-    # Metadata hold the version of vox; whole files are compared by the test of the command line.
-    # Values are rounded as libraries do.
-    "$vox" diff "$kept" "$folder/$name.vdb" --no-metadata --tolerance 1e-5 >"$folder/$name.txt" && return
-    sed "s/^/$name: /" "$folder/$name.txt"
-  else
-    echo "$name: there is no reference yet"
-  fi
-  if [ "$renew" = --renew ]; then
-    cp "$folder/$name.vdb" "$kept"
-    "$vox" render "$kept" -o "${kept%.vdb}.png" --force --quiet --views front,iso --size 160x160
-  else
-    wrong=$((wrong + 1))
-  fi
+  "$vox" convert "$source/scenes/$2" -o "$folder/$1.vdb" --quiet "${@:3}" || wrong=$((wrong + 1))
 }
 
 # surface_of NAME SCENE OPTIONS...: its mask, held against the surface, too.
@@ -63,5 +48,22 @@ reference colors textured_after.toml --dim 32 --grids density,color
 reference houdini toy_jack.toml --dim 32 --grids density,normal,color --target houdini --up z \
   --texture 'stripes:scale=0.2'
 
-echo "$count grids, $wrong wrong"
+if [ "$report" = --renew ]; then
+  for grid in "$folder"/*.vdb; do
+    name=$(basename "$grid" .vdb)
+    if [ ! -e "$kept/$name.vdb" ]; then
+      echo "$name: there is no reference yet"
+    elif compare "$kept/$name.vdb" "$grid" >"$folder/text"; then
+      continue
+    else
+      sed "s/^/$name: /" "$folder/text"
+    fi
+    cp "$grid" "$kept"
+    "$vox" render "$grid" -o "$kept/$name.png" --force --quiet --views front,iso --size 160x160
+  done
+else
+  mkdir -p "$report"
+  compare "$kept" "$folder" --force --report "$report/report.html" --junit "$report/junit.xml" ||
+    wrong=$((wrong + 1))
+fi
 [ "$wrong" -eq 0 ]
