@@ -1,9 +1,9 @@
 // vox check: faults of a .vdb file.
 
-#include "apps/vox/command.h"
+#include "apps/vox/check.h"
+
 #include "apps/vox/counted.h"
 #include "apps/vox/json.h"
-#include "apps/vox/options.h"
 #include "apps/vox/verify.h"
 #include "libvox/core/error.h"
 #include "libvox/core/names.h"
@@ -32,21 +32,6 @@ namespace {
 constexpr int kFaulty = 1;
 constexpr const char* kLeak = "leak";
 constexpr const char* kTunnel = "tunnel";
-
-struct CheckArguments {
-  std::string file;
-  std::string mesh;
-  std::string grid;
-  std::string ignore;
-  SmoothingArguments smoothing;
-  std::string until;
-  std::optional<double> weldTolerance;
-  RunOptions run;
-  std::string report;
-  bool force = false;
-  bool quiet = false;
-  bool json = false;
-};
 
 /// Result of the check.
 struct Check {
@@ -170,8 +155,9 @@ ConvertOptions optionsOfFile(const openvdb::GridBase& grid, const CheckArguments
   return made;
 }
 
+/// @param input  the scene of --mesh; null: it is read
 void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
-               const CheckArguments& options, Check& check) {
+               const CheckArguments& options, const Scene* input, Check& check) {
   if (!grid.transform().isLinear() || !grid.hasUniformVoxels())
     throw InputError(options.file + ": a mesh can be held against voxels that are cubes only");
   if (grid[kRunPartMetadata])
@@ -189,7 +175,10 @@ void checkMesh(const openvdb::GridBase& grid, const openvdb::MaskTree& voxels,
   if (made.volume.alpha == Alpha::kCut)
     throw InputError(options.file +
                      ": has holes (--alpha cut): a mesh can be held against whole grids only");
-  const Scene scene = readScene(options.mesh, made.scale);
+  if (input != nullptr && made.scale)
+    throw UsageError(options.file + ": was made with --scale; name the file of the mesh instead");
+  const Scene read = input != nullptr ? Scene() : readScene(options.mesh, made.scale);
+  const Scene& scene = input != nullptr ? *input : read;
   check.objects = checkObjects(voxels, scene, resolve(scene, made), grid.voxelSize().x());
   for (const ObjectCheck& object : check.objects) {
     if (object.separation.tunnels == 0) continue;
@@ -212,7 +201,7 @@ void checkLeaks(const openvdb::MaskTree& voxels, Check& check) {
   }
 }
 
-Check checkFile(const CheckArguments& options) {
+Check checkFile(const CheckArguments& options, const Scene* input = nullptr) {
   const std::vector<std::string> ignored = ignoredCodes(options);
   Check check;
   check.findings = lintVdb(options.file);
@@ -227,7 +216,7 @@ Check checkFile(const CheckArguments& options) {
     if (options.mesh.empty())
       checkLeaks(*voxels, check);
     else
-      checkMesh(*grid, *voxels, options, check);
+      checkMesh(*grid, *voxels, options, input, check);
   }
   std::erase_if(check.findings, [&](const LintFinding& finding) {
     return std::find(ignored.begin(), ignored.end(), finding.code) != ignored.end();
@@ -331,7 +320,7 @@ int runCheck(const CheckArguments& options) {
     return found;
   });
   if (options.json)
-    std::cout << toJson(options, check).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    std::cout << textOf(toJson(options, check)) << '\n';
   else if (!options.quiet)
     print(options, check);
   return faultCount(check) == 0 ? 0 : kFaulty;
@@ -352,48 +341,56 @@ std::string footer() {
 
 }  // namespace
 
-Action addCheck(CLI::App& app) {
+std::string checkJson(const CheckArguments& options, const Scene* input) {
+  return onThreads(options.run.threads,
+                   [&] { return textOf(toJson(options, checkFile(options, input))); });
+}
+
+void declareCheck(CLI::App& app, CheckArguments& options) {
   const Command command(
       app, "check", "Find faults of a .vdb file: tunnels, leaks, grids that viewers do not show");
-  const auto options = std::make_shared<CheckArguments>();
-  command.add("FILE", options->file, "OpenVDB file (.vdb) or NanoVDB file (.nvdb) of any program")
+  command.add("FILE", options.file, "OpenVDB file (.vdb) or NanoVDB file (.nvdb) of any program")
       .required();
   command
-      .add("--mesh", options->mesh,
+      .add("--mesh", options.mesh,
            "Scene or mesh that the file was made from. The voxels are compared with its "
            "surface, which is made again: they must leave no tunnels")
       .type("INPUT")
       .group("Surface");
   command
-      .add("--grid", options->grid,
+      .add("--grid", options.grid,
            "Grid whose active voxels are the surface (default: mask, or density)")
       .type("NAME")
       .group("Surface");
-  addSmoothingOptions(command, options->smoothing);
+  addSmoothingOptions(command, options.smoothing);
   command
-      .add("--until", options->until,
+      .add("--until", options.until,
            "--until of the conversion that made the file. By default this and all other "
            "options of the conversion are read from the metadata of the file")
       .type("voxel|levels=K")
       .group("Surface");
-  addWeldOption(command, options->weldTolerance);
+  addWeldOption(command, options.weldTolerance);
   command
-      .add("--ignore", options->ignore,
+      .add("--ignore", options.ignore,
            "Faults and warnings that do not count, with commas; their names are below")
       .type("LIST")
       .group("Output");
   command
-      .add("--report", options->report,
+      .add("--report", options.report,
            "Write a page for people: what was found, with pictures. It needs no other file")
       .type("OUT.html")
       .group("Output");
-  command.addFlag("-f,--force", options->force, "Overwrite an existing output file")
+  command.addFlag("-f,--force", options.force, "Overwrite an existing output file").group("Output");
+  command.addFlag("--json", options.json, "Print JSON").group("Output");
+  command.addFlag("-q,--quiet", options.quiet, "Print nothing; the exit code tells")
       .group("Output");
-  command.addFlag("--json", options->json, "Print JSON").group("Output");
-  command.addFlag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
-      .group("Output");
-  addRunOptions(command, options->run);
+  addRunOptions(command, options.run);
   command.footer(footer());
+}
+
+Action addCheck(CLI::App& app) {
+  const auto options = std::make_shared<CheckArguments>();
+  declareCheck(app, *options);
   return [options] { return runCheck(*options); };
 }
 

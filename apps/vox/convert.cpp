@@ -1,13 +1,11 @@
 // vox convert: a mesh or scene into a file of grids, or such a file into another format.
 
-#include "libvox/pipeline/convert.h"
+#include "apps/vox/convert.h"
 
-#include "apps/vox/command.h"
 #include "apps/vox/convert_report.h"
 #include "apps/vox/copy_grids.h"
 #include "apps/vox/counted.h"
 #include "apps/vox/interrupt.h"
-#include "apps/vox/options.h"
 #include "apps/vox/progress_bar.h"
 #include "apps/vox/sequence.h"
 #include "apps/vox/verify.h"
@@ -35,21 +33,6 @@
 
 namespace vox::app {
 namespace {
-
-struct ConvertArguments {
-  std::vector<std::string> inputs;
-  std::string output;
-  ConversionArguments conversion;
-  std::string grids;
-  std::string part;
-  PartArguments parts;
-  VolumeArguments volume;
-  std::string report;
-  bool verify = false;
-  bool dryRun = false;
-  CommonOptions common;
-  std::vector<Option> meshOptions;  ///< those that files of grids do not have
-};
 
 void sayReport(const ConvertArguments& options, const FinishedRun& run) {
   const ConvertReport& report = run.conversion.report;
@@ -133,28 +116,13 @@ void requireOutputs(const ConvertArguments& options, const Frame& frame, const S
     throw UsageError(options.report + ": is the output, too; choose another name");
 }
 
-ConvertOptions parse(const ConvertArguments& options) {
+void requireNames(const ConvertArguments& options) {
   if (options.output.empty() && !options.dryRun)
     throw UsageError("--output is required; or see what it would be with --dry-run");
   if (!options.output.empty() && !isStdout(options.output) && !isGridFile(options.output))
     throw UsageError(options.output + ": the output of vox convert must end in .vdb or .nvdb");
   if (!options.report.empty() && lowerExtension(options.report) != ".json")
     throw UsageError(options.report + ": the file of --report must end in .json");
-  ConvertOptions parsed = parseConversion(options.conversion, options.common.run);
-  parseParts(options.parts, parsed);
-  if (!options.part.empty()) parsed.part = parseRunPart(options.part);
-  parsed.volume = parseVolume(options.volume);
-  if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
-  return parsed;
-}
-
-/// @throws UsageError  NanoVDB cannot hold what is asked for
-void requireHeld(const std::string& output, const Request& request) {
-  if (!isNvdb(output)) return;
-  if (request.part)
-    throw UsageError(output + ": has no place for what vox merge must know of parts; write .vdb");
-  if (request.volume.half)
-    throw UsageError(output + ": holds floats of 32 bits, not of 16 (--half); write .vdb");
 }
 
 /// The grids stay to the end of the process: to free millions of nodes takes longer than to end.
@@ -197,14 +165,13 @@ void runFrame(const ConvertArguments& options, const Frame& frame, ConvertOption
   Progress progress(bar.callback());
   convertOptions.run.progress = &progress;
   const Request request = resolve(scene, convertOptions);
-  requireHeld(frame.output, request);
+  requireHeld(frame.output, request.part.has_value(), request.volume.half);
   Conversion& conversion = conversionOfProcess();
   double writeSeconds = 0;
   {
     const CancelOnSignal cancelOnSignal(progress);
     conversion = {};  // the frame before
-    conversion = options.verify ? convert(scene, request) : convert(std::move(scene), request);
-    if (options.verify) verify(conversion, scene, request);
+    conversion = convertScene(std::move(scene), request, options.verify);
     const Stopwatch writing;
     onThreads(options.common.run.threads,
               [&] { write(options, frame.output, conversion, progress); });
@@ -231,7 +198,8 @@ int runCopy(const ConvertArguments& options, const std::vector<Frame>& frames,
 }
 
 int runConvert(const ConvertArguments& options) {
-  ConvertOptions convertOptions = parse(options);
+  requireNames(options);
+  ConvertOptions convertOptions = parseConvert(options);
   const std::vector<Frame> frames = framesOf(options.inputs, options.output);
   if (isGridFile(frames[0].input))
     return runCopy(options, frames, convertOptions.volume.compression);
@@ -242,13 +210,40 @@ int runConvert(const ConvertArguments& options) {
 
 }  // namespace
 
-Action addConvert(CLI::App& app) {
+ConvertOptions parseConvert(const ConvertArguments& options) {
+  ConvertOptions parsed = parseConversion(options.conversion, options.common.run);
+  parseParts(options.parts, parsed);
+  if (!options.part.empty()) parsed.part = parseRunPart(options.part);
+  parsed.volume = parseVolume(options.volume);
+  if (!options.grids.empty()) parsed.grids = parseGrids(options.grids);
+  return parsed;
+}
+
+void requireHeld(const std::string& output, bool isPart, bool isHalf) {
+  if (!isNvdb(output)) return;
+  if (isPart)
+    throw UsageError(output + ": has no place for what vox merge must know of parts; write .vdb");
+  if (isHalf)
+    throw UsageError(output + ": holds floats of 32 bits, not of 16 (--half); write .vdb");
+}
+
+Conversion convertScene(Scene&& scene, const Request& request, bool verified) {
+  if (!verified) return convert(std::move(scene), request);
+  return convertScene(scene, request, verified);
+}
+
+Conversion convertScene(const Scene& scene, const Request& request, bool verified) {
+  Conversion conversion = convert(scene, request);
+  if (verified) verify(conversion, scene, request);
+  return conversion;
+}
+
+void declareConvert(CLI::App& app, ConvertArguments& options) {
   const Command command(app, "convert",
                         "Convert a mesh or scene into a smooth voxel model (.vdb, .nvdb)");
-  const auto options = std::make_shared<ConvertArguments>();
   command
       .add(
-          "INPUT", options->inputs,
+          "INPUT", options.inputs,
           "Scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb). Several inputs, or a "
           "pattern such as mesh.####.obj, become a sequence out.####.vdb with one voxel size. Or a "
           "file of grids (.vdb .nvdb), to be written in the other format or with another "
@@ -256,27 +251,27 @@ Action addConvert(CLI::App& app) {
       .required()
       .type("");
   command
-      .add("-o,--output", options->output,
+      .add("-o,--output", options.output,
            "OpenVDB file to write, or NanoVDB file (.nvdb); - for OpenVDB on stdout. Required "
            "without "
            "--dry-run")
       .type("OUT.vdb")
       .group("Output");
-  addResolutionOptions(command, options->conversion.resolution);
-  addScaleOption(command, options->conversion.scale);
-  addSmoothingOptions(command, options->conversion.smoothing);
-  addVoxelizationOptions(command, options->conversion.voxelization);
-  addWeldOption(command, options->conversion.weldTolerance);
-  addDropOption(command, options->conversion.dropComponents);
-  addStrictOption(command, options->conversion.strict);
+  addResolutionOptions(command, options.conversion.resolution);
+  addScaleOption(command, options.conversion.scale);
+  addSmoothingOptions(command, options.conversion.smoothing);
+  addVoxelizationOptions(command, options.conversion.voxelization);
+  addWeldOption(command, options.conversion.weldTolerance);
+  addDropOption(command, options.conversion.dropComponents);
+  addStrictOption(command, options.conversion.strict);
   command
-      .add("--grids", options->grids,
+      .add("--grids", options.grids,
            "Grids to write, with commas: " + allNamesIn(kGridNames) +
                " (default: the scene's, or density)")
       .type("LIST")
       .group("Output");
   command
-      .add("--texture", options->conversion.texture,
+      .add("--texture", options.conversion.texture,
            "Texture of all objects, in the grid color: " + allTextureNames() +
                "; with parameters: marble:scale=0.2,seed=3 or image:file=F (default: the scene's "
                "textures, "
@@ -284,36 +279,41 @@ Action addConvert(CLI::App& app) {
       .type("KIND[:KEY=VALUE,...]")
       .group("Output");
   command
-      .add("--part", options->part,
+      .add("--part", options.part,
            "Make only the I-th of N parts of the grids, for other processes or machines to make "
            "the others: all with the same input and options. vox merge puts the files together. "
            "(These are not the parts of --part-by)")
       .type("I/N")
       .group("Output");
-  addPartOptions(command, options->parts);
-  addVolumeOptions(command, options->volume);
-  addFileOptions(command, options->volume);
-  addSubmeshOptions(command, options->conversion.submeshes);
+  addPartOptions(command, options.parts);
+  addVolumeOptions(command, options.volume);
+  addFileOptions(command, options.volume);
+  addSubmeshOptions(command, options.conversion.submeshes);
   command
-      .add("--report", options->report,
+      .add("--report", options.report,
            "Write times, counts and memory of each stage and object to a file, as JSON")
       .type("FILE.json")
       .group("Output");
   command
-      .addFlag("--verify", options->verify,
+      .addFlag("--verify", options.verify,
                "Check the voxels against the surface, as vox check --mesh does, before the file "
                "is written; exit code 1 if they fail")
       .group("Output");
   command
-      .addFlag("--dry-run", options->dryRun,
+      .addFlag("--dry-run", options.dryRun,
                "Print an estimate of voxels, memory, levels and file size, within a factor of "
                "about 1.5, and write nothing")
       .group("Run");
   for (const Option& option : command.options())
     if (option.name() != "INPUT" && option.name() != "--output" && option.name() != "--compression")
-      options->meshOptions.push_back(option);
-  addProgressOption(command, options->common);
-  addCommonOptions(command, options->common);
+      options.meshOptions.push_back(option);
+  addProgressOption(command, options.common);
+  addCommonOptions(command, options.common);
+}
+
+Action addConvert(CLI::App& app) {
+  const auto options = std::make_shared<ConvertArguments>();
+  declareConvert(app, *options);
   return [options] { return runConvert(*options); };
 }
 

@@ -200,7 +200,7 @@ std::string reportJson(const FinishedRun& run) {
                        {"write", run.writeSeconds}}},
                      {"memory", memoryJson(run.conversion)},
                      {"warnings", report.warnings}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return textOf(json) + '\n';
 }
 
 std::vector<std::string> reportLines(const FinishedRun& run) {

@@ -1,8 +1,7 @@
 // vox diff: the differences of two files of grids, or of two folders of them.
 
-#include "libvox/inspect/diff.h"
+#include "apps/vox/diff.h"
 
-#include "apps/vox/command.h"
 #include "apps/vox/counted.h"
 #include "apps/vox/diff_junit.h"
 #include "apps/vox/diff_text.h"
@@ -30,19 +29,6 @@ namespace vox::app {
 namespace {
 
 constexpr int kDifferent = 1;
-
-struct DiffArguments {
-  std::string a, b;
-  DiffOptions diff;
-  std::string grids;
-  bool noMetadata = false;
-  std::string output;
-  std::string junit;
-  std::string report;
-  bool force = false;
-  bool quiet = false;
-  bool json = false;
-};
 
 bool isFolder(const std::string& path) {
   std::error_code ignored;
@@ -123,19 +109,8 @@ std::string suiteName(const DiffArguments& options) {
   return "vox diff " + options.a + ' ' + options.b;
 }
 
-/// Prints differences of files or folders, and writes the report of tests.
-template <class Diff>
-void tell(const DiffArguments& options, const Diff& diff) {
-  writeJunitReport(options, suiteOf(diff, suiteName(options)));
-  if (options.json)
-    std::cout
-        << jsonOf(diff, options.a, options.b).dump(2, ' ', false, Json::error_handler_t::replace)
-        << '\n';
-  else if (!options.quiet)
-    std::cout << textOf(diff);
-}
-
-bool compareFiles(const DiffArguments& options) {
+template <class Tell>
+bool compareFiles(const DiffArguments& options, Tell&& tellResult) {
   const FileDiff diff = diffVdb(options.a, options.b, options.diff);
   if (!options.output.empty())
     writeDifference(options.a, options.b, options.diff, options.output, options.force);
@@ -144,14 +119,17 @@ bool compareFiles(const DiffArguments& options) {
   files.inA = files.inB = true;
   files.diff = diff;
   writePage(options, {files}, false);
-  tell(options, diff);
+  writeJunitReport(options, suiteOf(diff, suiteName(options)));
+  tellResult(diff);
   return diff.same();
 }
 
-bool compareFolders(const DiffArguments& options) {
+template <class Tell>
+bool compareFolders(const DiffArguments& options, Tell&& tellResult) {
   const FolderDiff diff = diffFolders(options.a, options.b, options.diff);
   writePage(options, diff.files, true);
-  tell(options, diff);
+  writeJunitReport(options, suiteOf(diff, suiteName(options)));
+  tellResult(diff);
   const auto isWrong = [](const FilePairDiff& file) { return !file.error.empty(); };
   const auto wrong = std::find_if(diff.files.begin(), diff.files.end(), isWrong);
   if (wrong == diff.files.end()) return diff.same();
@@ -162,76 +140,99 @@ bool compareFolders(const DiffArguments& options) {
   throw InputError(message);
 }
 
-int runDiff(DiffArguments options) {
+/// Compares as the arguments say, writes what they ask for, and tells the result.
+/// @param tellResult  is called with a FileDiff or a FolderDiff
+/// @return  true if there is no difference
+template <class Tell>
+bool compare(DiffArguments options, Tell&& tellResult) {
   options.diff.metadata = !options.noMetadata;
   std::istringstream names(options.grids);
   for (std::string name; std::getline(names, name, ',');) options.diff.onlyGrids.push_back(name);
   const bool folders = areFolders(options);
   requireNames(options, folders);
-  if (folders) return compareFolders(options) ? 0 : kDifferent;
+  if (folders) return compareFolders(options, tellResult);
   try {
-    return compareFiles(options) ? 0 : kDifferent;
+    return compareFiles(options, tellResult);
   } catch (const InputError& error) {
     writeJunitReport(options, suiteOfError(error.what(), suiteName(options)));
     throw;
   }
 }
 
+int runDiff(const DiffArguments& options) {
+  const bool same = compare(options, [&](const auto& diff) {
+    if (options.json)
+      std::cout << textOf(jsonOf(diff, options.a, options.b)) << '\n';
+    else if (!options.quiet)
+      std::cout << textOf(diff);
+  });
+  return same ? 0 : kDifferent;
+}
+
 }  // namespace
 
-Action addDiff(CLI::App& app) {
+std::string diffJson(const DiffArguments& options) {
+  std::string json;
+  compare(options, [&](const auto& diff) { json = textOf(jsonOf(diff, options.a, options.b)); });
+  return json;
+}
+
+void declareDiff(CLI::App& app, DiffArguments& options) {
   const Command command(app, "diff",
                         "Compare two .vdb or .nvdb files, or all such files of two folders");
-  const auto options = std::make_shared<DiffArguments>();
-  command.add("A", options->a, "OpenVDB file (.vdb), NanoVDB file (.nvdb), or folder of such files")
+  command.add("A", options.a, "OpenVDB file (.vdb), NanoVDB file (.nvdb), or folder of such files")
       .required();
   command
-      .add("B", options->b,
+      .add("B", options.b,
            "File or folder to compare it with; files of folders are compared by name")
       .required();
   command
-      .add("--tolerance", options->diff.absoluteTolerance,
+      .add("--tolerance", options.diff.absoluteTolerance,
            "Values may differ by this much (default: 0)")
       .type("T")
       .group("Comparison");
   command
-      .add("--relative", options->diff.relativeTolerance,
+      .add("--relative", options.diff.relativeTolerance,
            "Values may differ, in addition, by this fraction of the larger one (default: "
            "0)")
       .type("R")
       .group("Comparison");
   command
-      .add("--tolerance-voxels", options->diff.voxelTolerance,
+      .add("--tolerance-voxels", options.diff.voxelTolerance,
            "Active voxels may be this far from those of the other grid, in voxels (default: 0); "
            "values are compared where both are active")
       .type("D")
       .group("Comparison");
-  command.add("--grids", options->grids, "Grids to compare, with commas (default: all)")
+  command.add("--grids", options.grids, "Grids to compare, with commas (default: all)")
       .type("LIST")
       .group("Comparison");
-  command.addFlag("--no-metadata", options->noMetadata, "Do not compare metadata")
+  command.addFlag("--no-metadata", options.noMetadata, "Do not compare metadata")
       .group("Comparison");
   command
-      .add("-o,--output", options->output,
+      .add("-o,--output", options.output,
            "Write the differences as grids: NAME_only_a, NAME_only_b, NAME_difference")
       .type("OUT.vdb")
       .group("Output");
   command
-      .add("--junit", options->junit,
+      .add("--junit", options.junit,
            "Write a report that CI systems show: a test for each grid, of folders for each file")
       .type("OUT.xml")
       .group("Output");
   command
-      .add("--report", options->report,
+      .add("--report", options.report,
            "Write a page for people: what differs, with pictures. It needs no other file")
       .type("OUT.html")
       .group("Output");
-  command.addFlag("-f,--force", options->force, "Overwrite an existing output file")
-      .group("Output");
-  command.addFlag("--json", options->json, "Print JSON").group("Output");
-  command.addFlag("-q,--quiet", options->quiet, "Print nothing; the exit code tells")
+  command.addFlag("-f,--force", options.force, "Overwrite an existing output file").group("Output");
+  command.addFlag("--json", options.json, "Print JSON").group("Output");
+  command.addFlag("-q,--quiet", options.quiet, "Print nothing; the exit code tells")
       .group("Output");
   command.footer("Exit code 0: the same; 1: different; 3: a file cannot be read.");
+}
+
+Action addDiff(CLI::App& app) {
+  const auto options = std::make_shared<DiffArguments>();
+  declareDiff(app, *options);
   return [options] { return runDiff(*options); };
 }
 

@@ -1,9 +1,9 @@
 // vox info: properties of a mesh, scene or file of grids, and of the mesh after preparation.
 
-#include "apps/vox/command.h"
+#include "apps/vox/info.h"
+
 #include "apps/vox/counted.h"
 #include "apps/vox/json.h"
-#include "apps/vox/options.h"
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/progress.h"
@@ -30,17 +30,6 @@
 
 namespace vox::app {
 namespace {
-
-struct InfoArguments {
-  std::vector<std::string> files;
-  bool json = false;
-  std::optional<double> scale;
-  std::optional<double> weldTolerance;
-  std::string boundary;
-  std::string faces;
-  CreaseArguments creases;
-  std::optional<ComponentLimit> dropComponents;
-};
 
 std::map<DefectKind, std::uint64_t> countByKind(const std::vector<Defect>& defects) {
   std::map<DefectKind, std::uint64_t> counts;
@@ -323,17 +312,8 @@ void print(const GridSummary& grid) {
       std::cout << "    " << std::left << std::setw(18) << key << metadataText(value) << '\n';
 }
 
-Json describe(const std::string& file, const InfoArguments& options) {
-  Json all = {{"file", file}};
-  if (!options.json) std::cout << file << '\n';
-  if (isGridFile(file)) {
-    for (const GridSummary& grid : summarizeVdb(file)) {
-      all["grids"].push_back(toJson(grid));
-      if (!options.json) print(grid);
-    }
-    return all;
-  }
-  const Scene scene = readScene(file, options.scale);
+/// The meshes of a scene, as JSON or printed.
+Json describe(const Scene& scene, const InfoArguments& options, bool json) {
   PreparationOptions preparation;
   preparation.weldTolerance = options.weldTolerance;
   preparation.smoothing.boundary = parseBoundary(options.boundary);
@@ -342,35 +322,60 @@ Json describe(const std::string& file, const InfoArguments& options) {
   requirePreparable(scene, preparation);
   preparation.dropComponents = options.dropComponents;
   const std::vector<ObjectPreparation> prepared = preparationsOf(scene, preparation);
+  Json meshes = Json::array();
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    all["meshes"].push_back(describe(scene, i, prepared[i], options.json));
+    meshes.push_back(describe(scene, i, prepared[i], json));
+  return meshes;
+}
+
+Json describe(const std::string& file, const InfoArguments& options, bool json) {
+  Json all = {{"file", file}};
+  if (!json) std::cout << file << '\n';
+  if (isGridFile(file)) {
+    for (const GridSummary& grid : summarizeVdb(file)) {
+      all["grids"].push_back(toJson(grid));
+      if (!json) print(grid);
+    }
+    return all;
+  }
+  all["meshes"] = describe(readScene(file, options.scale), options, json);
   return all;
 }
 
 int runInfo(const InfoArguments& options) {
   Json all = Json::array();
-  for (const std::string& file : options.files) all.push_back(describe(file, options));
-  if (options.json) std::cout << all.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  for (const std::string& file : options.files)
+    all.push_back(describe(file, options, options.json));
+  if (options.json) std::cout << textOf(all) << '\n';
   return 0;
 }
 
 }  // namespace
 
-Action addInfo(CLI::App& app) {
+std::string infoJson(const InfoArguments& options, const Scene* input) {
+  if (input != nullptr) return textOf({{"meshes", describe(*input, options, true)}});
+  return textOf(describe(options.files.at(0), options, true));
+}
+
+void declareInfo(CLI::App& app, InfoArguments& options) {
   const Command command(app, "info",
                         "Print the contents of meshes, scenes and .vdb or .nvdb files");
-  const auto options = std::make_shared<InfoArguments>();
   command
-      .add("FILE", options->files,
+      .add("FILE", options.files,
            "Mesh, scene (.toml), OpenVDB file (.vdb) or NanoVDB file (.nvdb)")
       .required();
-  command.addFlag("--json", options->json, "Print JSON");
-  addScaleOption(command, options->scale);
-  addBoundaryOption(command, options->boundary);
-  addCreaseOptions(command, options->creases);
-  addFacesOption(command, options->faces);
-  addWeldOption(command, options->weldTolerance);
-  addDropOption(command, options->dropComponents);
+  command.addFlag("--json", options.json, "Print JSON");
+  addScaleOption(command, options.scale);
+  addBoundaryOption(command, options.boundary);
+  addCreaseOptions(command, options.creases);
+  addFacesOption(command, options.faces);
+  addWeldOption(command, options.weldTolerance);
+  addDropOption(command, options.dropComponents);
+}
+
+Action addInfo(CLI::App& app) {
+  const auto options = std::make_shared<InfoArguments>();
+  declareInfo(app, *options);
   return [options] { return runInfo(*options); };
 }
 

@@ -6,11 +6,17 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 namespace vox::app {
 
 /// Keys keep the order in which they are added.
 using Json = nlohmann::ordered_json;
+
+/// JSON as the program prints it. Text that is no UTF-8 is replaced.
+inline std::string textOf(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
 
 /// The value, or null if it is not set.
 template <class Value>

@@ -2,6 +2,7 @@
 
 #include "apps/vox/manual.h"
 
+#include "apps/vox/option_help.h"
 #include "libvox/core/version.h"
 
 #include <CLI/CLI.hpp>
@@ -43,31 +44,6 @@ std::vector<const CLI::Option*> shownOptions(const CLI::App& command) {
 
 std::vector<const CLI::Option*> positionals(const CLI::App& command) {
   return command.get_options([](const CLI::Option* option) { return option->get_positional(); });
-}
-
-/// Start of the range in a type name: CLI11 appends it, as in "N:INT in [1 - 16]".
-constexpr std::string_view kRange = "INT in [";
-
-/// Name of an option's value, "FILE"; empty if the option takes none.
-std::string valueName(const CLI::Option& option) {
-  if (option.get_items_expected_max() == 0) return {};
-  const std::string type = option.get_type_name();
-  return type.find(kRange) == std::string::npos ? type : type.substr(0, type.find(':'));
-}
-
-/// Help text of an option, then its range, its default and whether it must be given.
-std::string description(const CLI::Option& option) {
-  std::string text = option.get_description();
-  const std::string type = option.get_type_name();
-  if (const std::size_t range = type.find(kRange); range != std::string::npos) {
-    const std::size_t begin = range + kRange.size();
-    text += " (from " + type.substr(begin, type.find(']', begin) - begin) + ")";
-    text.replace(text.rfind(" - "), 3, " to ");
-  }
-  if (const std::string value = option.get_default_str(); !value.empty())
-    text += " (default: " + value + ")";
-  if (option.get_required() && option.nonpositional()) text += " (required)";
-  return text;
 }
 
 /// Text below the options of a command; empty if it only inherits the program's.

@@ -216,6 +216,8 @@ void parseCreases(const CreaseArguments& arguments, SmoothingOptions& smoothing)
       throw UsageError("--crease must be " + std::string(kAllCreaseRuleNames) + ", not '" +
                        arguments.rule + "'");
   }
+  smoothing.creaseEdges = arguments.edges;
+  smoothing.cornerVertices = arguments.corners;
   if (!arguments.edgeFile.empty()) smoothing.creaseEdges = readIndexPairs(arguments.edgeFile);
   if (!arguments.cornerFile.empty()) smoothing.cornerVertices = readIndices(arguments.cornerFile);
 }
@@ -225,6 +227,7 @@ SmoothingOptions parseSmoothing(const SmoothingArguments& arguments) {
   smoothing.boundary = parseBoundary(arguments.boundary);
   smoothing.interpolate = parseNamed("--interpolate", kInterpolateNames, arguments.interpolate);
   smoothing.faces = parseFaces(arguments.faces);
+  smoothing.interpolatedVertices = arguments.vertices;
   if (!arguments.vertexFile.empty())
     smoothing.interpolatedVertices = readIndices(arguments.vertexFile);
   parseCreases(arguments.creases, smoothing);

@@ -41,6 +41,8 @@ struct CreaseArguments {
   std::string rule;
   std::string edgeFile;
   std::string cornerFile;
+  std::optional<std::vector<PointPair>> edges = {};  ///< in place of the file; no option
+  std::optional<std::vector<Index>> corners = {};    ///< the same
 };
 void addCreaseOptions(const Command& command, CreaseArguments& arguments);
 
@@ -54,6 +56,7 @@ struct SmoothingArguments {
   std::string faces;
   std::string interpolate;
   std::string vertexFile;
+  std::optional<std::vector<Index>> vertices = {};  ///< in place of the file; no option
   CreaseArguments creases;
 };
 void addSmoothingOptions(const Command& command, SmoothingArguments& arguments);

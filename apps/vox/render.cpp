@@ -1,10 +1,8 @@
 // vox render: a picture of a .vdb file, or of the voxels of a mesh or scene.
 
-#include "libvox/render/render.h"
+#include "apps/vox/render.h"
 
-#include "apps/vox/command.h"
 #include "apps/vox/interrupt.h"
-#include "apps/vox/options.h"
 #include "apps/vox/progress_bar.h"
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
@@ -26,25 +24,6 @@
 
 namespace vox::app {
 namespace {
-
-struct RenderArguments {
-  std::string input;
-  std::string output;
-  std::string views = "iso";
-  std::string up = "z";
-  std::string projection = nameIn(kProjectionNames, Projection::kOrthographic);
-  std::string size = "512x512";
-  std::string background = "white";
-  std::string shading = nameIn(kShadingNames, Shading::kNormals);
-  int samples = 2;
-  int occlusionRays = 4;
-  VisibleOptions visible;
-  // Of meshes and scenes:
-  ConversionArguments conversion;
-  std::vector<Option> meshOptions;  // all of these
-  std::vector<Option> gridOptions;  // those of .vdb files
-  CommonOptions common;
-};
 
 /// Reads the whole text as an integer.
 template <class Number>
@@ -96,8 +75,6 @@ Enum chosen(const char* option, const NameTable<Enum, N>& names, const std::stri
 }
 
 RenderOptions parse(const RenderArguments& options) {
-  if (!isStdout(options.output) && lowerExtension(options.output) != ".png")
-    throw UsageError(options.output + ": the output of vox render must end in .png");
   RenderOptions parsed;
   parsed.views = parseViews(options.views);
   parsed.up = chosen("--up", kUpAxisNames, options.up);
@@ -134,8 +111,6 @@ std::vector<GridKind> gridsFor(const RenderOptions& options, bool colored) {
   return grids;
 }
 
-using Grids = std::vector<std::shared_ptr<openvdb::GridBase>>;
-
 Grids readGrids(const RenderArguments& options) {
   Grids grids;
   for (NamedGrid& named : readVdb(options.input).grids) grids.push_back(std::move(named.grid));
@@ -157,41 +132,30 @@ void write(const RenderArguments& options, const Image& image) {
 }
 
 int runRender(const RenderArguments& options) {
-  RenderOptions renderOptions = parse(options);
+  if (!isStdout(options.output) && lowerExtension(options.output) != ".png")
+    throw UsageError(options.output + ": the output of vox render must end in .png");
   const bool isVdb = isGridFile(options.input);
-  refuse(isVdb ? options.meshOptions : options.gridOptions, options.input,
-         isVdb ? " is for meshes and scenes only" : " is for .vdb and .nvdb files only");
+  PictureOptions picture = parseRender(options, isVdb);
   ProgressBar bar(options.common);
   Progress progress(bar.callback());
-  renderOptions.progress = &progress;
-  ConvertOptions convertOptions = parseConversion(options.conversion, options.common.run);
-  convertOptions.run.progress = &progress;
   Scene scene;
   if (isVdb)
     scene.files = {options.input};
   else
     scene = onThreads(options.common.run.threads,
-                      [&] { return readScene(options.input, convertOptions.scale); });
+                      [&] { return readScene(options.input, picture.conversion.scale); });
   requireOutput(options.output, options.common, scene);
-  convertOptions.grids = gridsFor(renderOptions, convertOptions.texture || hasColors(scene));
-  Conversion conversion;
-  Image image;
+  Picture drawn;
   {
     const CancelOnSignal cancelOnSignal(progress);
-    progress.plan(workOfRendering(renderOptions));
-    if (isVdb)
-      conversion.grids = readGrids(options);
-    else
-      conversion = convert(scene, convertOptions);
-    image = render(conversion.grids, options.visible, renderOptions);
-    progress.finish();
-    write(options, image);
+    drawn = isVdb ? drawGrids(readGrids(options), picture, progress)
+                  : drawScene(scene, picture, progress);
+    write(options, drawn.image);
   }
   bar.erase();
-  for (const std::string& warning : conversion.report.warnings)
-    say(options.common, "warning: " + warning);
-  say(options.common, options.output + ": " + std::to_string(image.width) + " x " +
-                          std::to_string(image.height) + " pixels");
+  for (const std::string& warning : drawn.warnings) say(options.common, "warning: " + warning);
+  say(options.common, options.output + ": " + std::to_string(drawn.image.width) + " x " +
+                          std::to_string(drawn.image.height) + " pixels");
   return 0;
 }
 
@@ -257,24 +221,59 @@ void addMeshOptions(const Command& command, RenderArguments& options) {
 
 }  // namespace
 
-Action addRender(CLI::App& app) {
+PictureOptions parseRender(const RenderArguments& options, bool showsGrids) {
+  PictureOptions parsed;
+  parsed.rendering = parse(options);
+  parsed.visible = options.visible;
+  refuse(showsGrids ? options.meshOptions : options.gridOptions, options.input,
+         showsGrids ? " is for meshes and scenes only" : " is for .vdb and .nvdb files only");
+  parsed.conversion = parseConversion(options.conversion, options.common.run);
+  return parsed;
+}
+
+Picture drawGrids(const Grids& grids, PictureOptions options, Progress& progress) {
+  progress.plan(workOfRendering(options.rendering));
+  options.rendering.progress = &progress;
+  Picture picture = {render(grids, options.visible, options.rendering), {}};
+  progress.finish();
+  return picture;
+}
+
+Picture drawScene(const Scene& scene, PictureOptions options, Progress& progress) {
+  ConvertOptions& conversion = options.conversion;
+  conversion.run.progress = &progress;
+  conversion.grids = gridsFor(options.rendering, conversion.texture || hasColors(scene));
+  progress.plan(workOfRendering(options.rendering));
+  const Conversion converted = convert(scene, conversion);
+  options.rendering.progress = &progress;
+  Picture picture = {render(converted.grids, options.visible, options.rendering),
+                     converted.report.warnings};
+  progress.finish();
+  return picture;
+}
+
+void declareRender(CLI::App& app, RenderArguments& options) {
   const Command command(app, "render", "Draw a .vdb file, or the voxels of a mesh or scene (.png)");
-  const auto options = std::make_shared<RenderArguments>();
   command
-      .add("INPUT", options->input,
+      .add("INPUT", options.input,
            "OpenVDB file (.vdb) or NanoVDB file (.nvdb), scene (.toml) or mesh (.obj .ply .off "
            ".stl .om "
            ".gltf .glb)")
       .required();
-  command.add("-o,--output", options->output, "PNG file to write; - for stdout")
+  command.add("-o,--output", options.output, "PNG file to write; - for stdout")
       .required()
       .type("OUT.png")
       .group("Output");
-  addPictureOptions(command, *options);
-  addGridOptions(command, *options);
-  addMeshOptions(command, *options);
-  addProgressOption(command, options->common);
-  addCommonOptions(command, options->common);
+  addPictureOptions(command, options);
+  addGridOptions(command, options);
+  addMeshOptions(command, options);
+  addProgressOption(command, options.common);
+  addCommonOptions(command, options.common);
+}
+
+Action addRender(CLI::App& app) {
+  const auto options = std::make_shared<RenderArguments>();
+  declareRender(app, *options);
   return [options] { return runRender(*options); };
 }
 

@@ -1,8 +1,8 @@
 // vox subdivide: the refined polygon mesh itself.
 
-#include "apps/vox/command.h"
+#include "apps/vox/subdivide.h"
+
 #include "apps/vox/interrupt.h"
-#include "apps/vox/options.h"
 #include "apps/vox/progress_bar.h"
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
@@ -17,25 +17,11 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace vox::app {
 namespace {
-
-struct SubdivideArguments {
-  std::string input;
-  std::string output;
-  int levels = 0;
-  SmoothingArguments smoothing;
-  std::optional<double> scale;
-  std::optional<double> weldTolerance;
-  std::optional<ComponentLimit> dropComponents;
-  std::optional<bool> strict;
-  CommonOptions common;
-};
 
 /// Bytes of a file, roughly: OBJ is the longest.
 std::uint64_t expectedBytes(const PolygonMesh& mesh) {
@@ -109,8 +95,7 @@ Written writePolygons(const SubdivideArguments& options, const Scene& scene,
 
 int runSubdivide(const SubdivideArguments& options) {
   if (!isGlb(options.output)) formatOf(options.output);  // refuses others
-  const PreparationOptions preparation = {parseSmoothing(options.smoothing), options.weldTolerance,
-                                          options.dropComponents, options.strict};
+  const PreparationOptions preparation = parsePreparation(options);
   ProgressBar bar(options.common);
   const Scene scene = onThreads(options.common.run.threads,
                                 [&] { return readScene(options.input, options.scale); });
@@ -135,14 +120,18 @@ int runSubdivide(const SubdivideArguments& options) {
 
 }  // namespace
 
-Action addSubdivide(CLI::App& app) {
+PreparationOptions parsePreparation(const SubdivideArguments& options) {
+  return {parseSmoothing(options.smoothing), options.weldTolerance, options.dropComponents,
+          options.strict};
+}
+
+void declareSubdivide(CLI::App& app, SubdivideArguments& options) {
   const Command command(app, "subdivide", "Write the refined polygon mesh itself");
-  const auto options = std::make_shared<SubdivideArguments>();
-  command.add("INPUT", options->input, "Scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb)")
+  command.add("INPUT", options.input, "Scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb)")
       .required();
   command
       .add(
-          "-o,--output", options->output,
+          "-o,--output", options.output,
           "Mesh file to write: .obj, .ply or .off, or .glb for triangles with normals, colours and "
           "materials; - for OBJ on stdout")
       .required()
@@ -150,20 +139,25 @@ Action addSubdivide(CLI::App& app) {
       .group("Output");
   constexpr int kMostLevels = 30;
   command
-      .add("--levels", options->levels,
+      .add("--levels", options.levels,
            "Doo-Sabin steps; 0 writes the control mesh: the input as it is smoothed, with faces "
            "split (--faces) and vertices moved (--interpolate)")
       .required()
       .range(0, kMostLevels)
       .type("K")
       .group("Output");
-  addSmoothingOptions(command, options->smoothing);
-  addScaleOption(command, options->scale);
-  addWeldOption(command, options->weldTolerance);
-  addDropOption(command, options->dropComponents);
-  addStrictOption(command, options->strict);
-  addProgressOption(command, options->common);
-  addCommonOptions(command, options->common);
+  addSmoothingOptions(command, options.smoothing);
+  addScaleOption(command, options.scale);
+  addWeldOption(command, options.weldTolerance);
+  addDropOption(command, options.dropComponents);
+  addStrictOption(command, options.strict);
+  addProgressOption(command, options.common);
+  addCommonOptions(command, options.common);
+}
+
+Action addSubdivide(CLI::App& app) {
+  const auto options = std::make_shared<SubdivideArguments>();
+  declareSubdivide(app, *options);
   return [options] { return runSubdivide(*options); };
 }
 
