@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fails on an include that runs against the ranks of libvox/README.md:
-# core < mesh, options < grid < stages (which never include each other) < pipeline, inspect, render < report < apps < tests.
+# core < mesh, options < grid < stages (which never include each other) < pipeline, inspect, render < report < apps < apps/python < tests.
 set -euo pipefail
 cd "$1"
 
@@ -12,8 +12,9 @@ rank() {
     libvox/io | libvox/prepare | libvox/localize | libvox/subdivide | libvox/voxelize | libvox/foot | libvox/volume) echo 3 ;;
     libvox/pipeline | libvox/inspect | libvox/render) echo 4 ;;
     libvox/report) echo 5 ;;
+    apps/python) echo 7 ;;
     apps/*) echo 6 ;;
-    tests | tests/*) echo 7 ;;
+    tests | tests/*) echo 8 ;;
     *) echo "unknown folder $1: give it a rank in tests/layers.sh" >&2; exit 1 ;;
   esac
 }

@@ -18,6 +18,18 @@ python3 -m zipfile -l root/usr/share/vox/blender/vox_addon.zip | grep vox_addon/
 [ -r root/usr/share/vox/ci/action.yml ]
 gzip -dc root/usr/share/man/man1/vox.1.gz | grep '^.SS vox convert'
 
+# The Python package, if it was built: for the Python that is there.
+if [ -f "$(echo python3-vox_*.deb)" ]; then
+  dpkg-deb --field python3-vox_*.deb Depends | grep 'python3-numpy.*\|libopenvdb'
+  dpkg-deb --extract python3-vox_*.deb root
+  if /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
+    PYTHONPATH=root/usr/lib/python3/dist-packages /usr/bin/python3 -c "
+import vox
+grids = vox.convert('$scenes/torus.toml', dim=30)
+assert vox.__file__.startswith('$folder/root') and vox.diff(grids, 'torus.vdb')['same']"
+  fi
+fi
+
 # Completion: commands, options, values.
 completed() {
   # shellcheck disable=SC1091
