@@ -87,12 +87,13 @@ def faces(value):
                                   f"not {corners.shape}")
         return np.arange(count + 1, dtype=np.int64) * size, corners.reshape(-1)
     try:
-        lists = [list(face) for face in value]
+        each = value if isinstance(value, (list, tuple)) else list(value)
+        offsets = np.cumsum([0, *map(len, each)], dtype=np.int64)
+        corners = list(itertools.chain.from_iterable(each))
     except TypeError:
         raise TypeError("faces: must be an (n, k) array, a list of lists, "
                         "or a tuple (offsets, corners)") from None
-    offsets = np.cumsum([0, *map(len, lists)], dtype=np.int64)
-    return offsets, indices("faces", list(itertools.chain.from_iterable(lists)))
+    return offsets, indices("faces", corners)
 
 
 def labels(name, value):
