@@ -353,7 +353,10 @@ int runInfo(const InfoArguments& options) {
 }  // namespace
 
 std::string infoJson(const InfoArguments& options, const Scene* input) {
-  if (input != nullptr) return textOf({{"meshes", describe(*input, options, true)}});
+  if (input != nullptr) {
+    const Json meshes = {{"meshes", describe(*input, options, true)}};
+    return textOf(meshes);
+  }
   return textOf(describe(options.files.at(0), options, true));
 }
 
