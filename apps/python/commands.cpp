@@ -280,19 +280,23 @@ py::str infoOf(const Input& input, const Keywords& keywords, const Lists& lists)
   return text(runUnwatched([&] { return app::infoJson(arguments, scene.get()); }));
 }
 
-py::str diffOf(const std::string& a, const std::string& b, const Keywords& keywords) {
+py::str diffOf(const std::string& a, const std::string& b, bool overwrite,
+               const Keywords& keywords) {
   app::DiffArguments arguments;
   KeywordCommand command([&](CLI::App& app) { app::declareDiff(app, arguments); });
-  parse(command, {wordOf(a), wordOf(b)}, keywords);
+  std::vector<std::string> words = {wordOf(a), wordOf(b)};
+  if (overwrite) words.emplace_back("--force");
+  parse(command, words, keywords);
   return text(runUnwatched([&] { return app::diffJson(arguments); }));
 }
 
-py::str checkOf(const std::string& file, const std::optional<Input>& mesh, const Keywords& keywords,
-                const Lists& lists) {
+py::str checkOf(const std::string& file, const std::optional<Input>& mesh, bool overwrite,
+                const Keywords& keywords, const Lists& lists) {
   app::CheckArguments arguments;
   KeywordCommand command([&](CLI::App& app) { app::declareCheck(app, arguments); });
   std::vector<std::string> words = {wordOf(file)};
   if (mesh) words.push_back("--mesh=" + wordOf(*mesh));
+  if (overwrite) words.emplace_back("--force");
   parse(command, words, keywords);
   setLists(lists, arguments.smoothing);
   const auto scene = mesh ? inMemory(*mesh) : nullptr;

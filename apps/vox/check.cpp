@@ -312,13 +312,18 @@ void writeReport(const CheckArguments& options, const Check& check) {
   file.commit();
 }
 
-int runCheck(const CheckArguments& options) {
+/// @param input  as for checkFile
+Check checkAndReport(const CheckArguments& options, const Scene* input = nullptr) {
   requireReport(options);
-  const Check check = onThreads(options.run.threads, [&] {
-    Check found = checkFile(options);
-    if (!options.report.empty()) writeReport(options, found);
-    return found;
+  return onThreads(options.run.threads, [&] {
+    Check check = checkFile(options, input);
+    if (!options.report.empty()) writeReport(options, check);
+    return check;
   });
+}
+
+int runCheck(const CheckArguments& options) {
+  const Check check = checkAndReport(options);
   if (options.json)
     std::cout << textOf(toJson(options, check)) << '\n';
   else if (!options.quiet)
@@ -342,8 +347,7 @@ std::string footer() {
 }  // namespace
 
 std::string checkJson(const CheckArguments& options, const Scene* input) {
-  return onThreads(options.run.threads,
-                   [&] { return textOf(toJson(options, checkFile(options, input))); });
+  return textOf(toJson(options, checkAndReport(options, input)));
 }
 
 void declareCheck(CLI::App& app, CheckArguments& options) {

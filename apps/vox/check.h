@@ -25,9 +25,9 @@ struct CheckArguments {
 };
 void declareCheck(CLI::App& app, CheckArguments& options);
 
-/// What --json prints.
+/// What --json prints. Writes the file of --report.
 /// @param input  the scene that stands for the file of --mesh, which must be given; or null
-/// @throws UsageError, InputError, LimitError
+/// @throws UsageError, InputError, IoError, LimitError
 std::string checkJson(const CheckArguments& options, const Scene* input = nullptr);
 
 }  // namespace vox::app

@@ -18,9 +18,11 @@ namespace {
 
 /// Options of the program that make no sense for a function: its caller has the result.
 constexpr std::array<std::string_view, 7> kOfProgram = {
-    "--output", "--force", "--quiet", "--verbose", "--json", "--report", "--dry-run"};
+    "--output", "--force", "--quiet", "--verbose", "--progress", "--json", "--dry-run"};
 
-bool isOfProgram(std::string_view option) {
+bool isOfProgram(std::string_view option, const CLI::App& command) {
+  // The report of vox convert is data for programs; those of other commands are pages for people.
+  if (option == "--report") return command.get_name() == "convert";
   return std::find(kOfProgram.begin(), kOfProgram.end(), option) != kOfProgram.end();
 }
 
@@ -97,7 +99,7 @@ void KeywordCommand::parse(const std::vector<std::string>& arguments,
   std::vector<std::string> words = {command_->get_name()};
   for (const Keyword& keyword : keywords) {
     const std::string name = optionOf(keyword.name);
-    if (isOfProgram(name))
+    if (isOfProgram(name, *command_))
       throw UsageError(name + " is for the program only: here the result is returned");
     std::visit(KeywordWords(name, command_->get_option_no_throw(name), words), keyword.value);
   }
@@ -109,7 +111,7 @@ std::vector<KeywordHelp> KeywordCommand::help() const {
   std::vector<KeywordHelp> all;
   for (const CLI::Option* option : command_->get_options()) {
     const std::vector<std::string>& names = option->get_lnames();
-    if (names.empty() || isOfProgram("--" + names[0])) continue;
+    if (names.empty() || isOfProgram("--" + names[0], *command_)) continue;
     all.push_back({keywordOf(names[0]), valueName(*option), description(*option)});
   }
   return all;

@@ -186,6 +186,21 @@ class Functions(support.InFolder):
         self.assertFalse(vox.diff(made, b, grids=["density"])["same"])
         self.assertTrue(vox.diff(made, made, tolerance=0.5, relative=0.1)["same"])
 
+    def test_diff_and_check_write_pages_for_people(self):
+        made = vox.convert(TORUS, dim=20)
+        other = vox.convert(TORUS, dim=20, until="levels=1")
+        page, cases = self.folder / "diff.html", self.folder / "diff.xml"
+        vox.diff(made, other, report=page, junit=cases)
+        self.assertIn(">Different</h1>", page.read_text())
+        self.assertIn("<testsuite", cases.read_text())
+        with self.assertRaises(vox.IoError):
+            vox.diff(made, other, report=page)
+        vox.diff(made, made, report=page, overwrite=True)
+        self.assertIn(">The same</h1>", page.read_text())
+        vox.check(made, report=self.folder / "check.html")
+        self.assertIn(">No faults</h1>", (self.folder / "check.html").read_text())
+        self.assertTrue(vox.diff(made, other, tolerance_voxels=2, no_metadata=True)["same"])
+
     def test_render_draws_the_picture_of_the_program(self):
         made = vox.convert(TORUS, dim=40, grids=["density", "normal"])
         made.write(self.folder / "a.vdb")

@@ -389,32 +389,34 @@ def info(input, **options):
     return found
 
 
-def diff(a, b, **options):
+def diff(a, b, *, overwrite=False, **options):
     """Compares grids, as ``vox diff --json`` does.
 
-    a, b: Grids, or paths of .vdb or .nvdb files.
+    a, b: Grids, or paths of .vdb or .nvdb files, or of folders of such files.
+    overwrite: True replaces the files of `report` and `junit`.
 
     Returns a dict: "same" is True if nothing differs; "grids" is a list of dicts.
     """
     with _file(a) as name_a, _file(b) as name_b:
-        found = json.loads(_vox.diff(name_a, name_b, _arrays.keywords(options)))
+        found = json.loads(_vox.diff(name_a, name_b, overwrite, _arrays.keywords(options)))
     for key, value in (("a", a), ("b", b)):
         if isinstance(value, Grids):
             found[key] = None
     return found
 
 
-def check(grids, mesh=None, **options):
+def check(grids, mesh=None, *, overwrite=False, **options):
     """Looks for faults of grids, as ``vox check --json`` does.
 
     grids: Grids, or the path of a .vdb or .nvdb file.
     mesh: what the grids were made from, a Mesh, a Scene or a path. The voxels must separate the
         sides of its surface; None: they are checked alone.
+    overwrite: True replaces the file of `report`.
 
     Returns a dict: "ok" is True if there are no faults; "faults" and "warnings" are lists of dicts.
     """
     with _file(grids) as name:
-        found = json.loads(_vox.check(name, None if mesh is None else _input(mesh),
+        found = json.loads(_vox.check(name, None if mesh is None else _input(mesh), overwrite,
                                       *_options("check", options)))
     if isinstance(grids, Grids):
         found["file"] = None

@@ -240,15 +240,20 @@ def diff(
     a: Grids | _Path,
     b: Grids | _Path,
     *,
+    overwrite: bool = ...,
     tolerance: _Number | None = ...,
     relative: _Number | None = ...,
+    tolerance_voxels: _Number | None = ...,
     grids: _Names | None = ...,
     no_metadata: bool | None = ...,
+    junit: _Path | None = ...,
+    report: _Path | None = ...,
 ) -> dict[str, Any]: ...
 def check(
     grids: Grids | _Path,
     mesh: Mesh | Scene | _Path | None = ...,
     *,
+    overwrite: bool = ...,
     grid: str | None = ...,
     boundary: str | None = ...,
     interpolate: str | None = ...,
@@ -260,6 +265,7 @@ def check(
     until: str | None = ...,
     weld: _Number | None = ...,
     ignore: _Names | None = ...,
+    report: _Path | None = ...,
     threads: _Whole | None = ...,
     max_memory: int | str | None = ...,
 ) -> dict[str, Any]: ...
