@@ -490,6 +490,12 @@ TEST_CASE("a damaged file is an error, even if the other has the same bytes",
   const auto c = folder.write("c.vdb", bytes);
   CHECK_THROWS_WITH(diffVdb(folder / "a.vdb", b, {}), Contains("b.vdb: is damaged"));
   CHECK_THROWS_WITH(diffVdb(b, c, {}), Contains("b.vdb: is damaged"));
+  // Of another program, without a hash.
+  writePlainly(folder / "plain.vdb", {randomGrid(random, false)});
+  bytes = test::contentOf(folder / "plain.vdb");
+  const auto d = folder.write("d.vdb", bytes.substr(0, bytes.size() - 100));
+  const auto e = folder.write("e.vdb", bytes.substr(0, bytes.size() - 100));
+  CHECK_THROWS_WITH(diffVdb(d, e, {}), Contains("d.vdb: is truncated"));
 }
 
 TEST_CASE("voxels may move by as much as is allowed", "[inspect][diff][property]") {

@@ -4,10 +4,12 @@
 #include "libvox/core/progress.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/io/read_mesh.h"
+#include "libvox/io/write_glb.h"
 #include "libvox/io/write_png.h"
 #include "libvox/mesh/area_vector.h"
 #include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/refine.h"
+#include "libvox/pipeline/shaded_refinement.h"
 #include "tests/conversion.h"
 #include "tests/gltf_files.h"
 #include "tests/shapes.h"
@@ -166,6 +168,34 @@ TEST_CASE("seams between islands of an image stay sharp: no colour bleeds", "[co
       std::size_t checked = 0;
       CHECK(bleeding(mesh, test::colorOf(conversion), checked) == 0);
       CHECK(checked > 3000);
+    }
+  }
+}
+
+TEST_CASE("a refined .glb has the colours of the mesh that it was made of",
+          "[color][image][shaded]") {
+  constexpr int kLevels = 4;
+  for (PolygonMesh mesh : {test::cube(), test::dodecahedron()}) {
+    for (const bool sharp : {false, true}) {
+      CAPTURE(mesh.faceCount(), sharp);
+      PolygonMesh laid = mesh;
+      const Image image = islands(laid);
+      PreparationOptions preparation;
+      if (sharp) preparation.smoothing.crease = CreaseRule{.degrees = 20.0};
+      const test::TemporaryFolder folder;
+      {
+        std::ofstream file(folder / "refined.glb", std::ios::binary);
+        writeGlb(file, shadedRefinement(imageScene(laid, image), kLevels, preparation, {}).scene);
+      }
+      ConvertOptions options = colorsAt(48);
+      options.until = StopRule{.levels = 0};
+      const Conversion conversion = convert(readScene(folder / "refined.glb"), options);
+      std::size_t checked = 0;
+      const std::size_t wrong = bleeding(mesh, test::colorOf(conversion), checked);
+      CHECK(checked > 3000);
+      // Faces across a seam have the image of one side, so half of their width is on the other. On
+      // a sharp edge both sides are equally near.
+      CHECK(wrong <= checked / (sharp ? 100 : 12));
     }
   }
 }

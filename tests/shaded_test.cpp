@@ -1,4 +1,5 @@
 #include "libvox/core/error.h"
+#include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
 #include "libvox/io/read_mesh.h"
 #include "libvox/io/write_glb.h"
@@ -472,6 +473,18 @@ TEST_CASE("an object far from the origin keeps its shape in floats", "[shaded][i
   const PolygonMesh found = readGlb(glbOf(shaded(sceneOf(mesh), 1).scene));
   const PolygonMesh expected = refine(sceneOf(mesh), 1, {}, {}).mesh;
   CHECK(test::samePoints(found.points, expected.points, 1e-6));
+}
+
+TEST_CASE("a .glb of 4 GiB is refused before a byte is written", "[shaded][io][error]") {
+  constexpr std::uint64_t kRoom = std::uint64_t{6} << 30U;
+  if (availableMemory() < kRoom) return;
+  ShadedScene scene = shaded(sceneOf(test::cube()), 0).scene;
+  // Memory that is never touched: Eigen's vectors have no value at first.
+  scene.objects[0].parts[0].normals = std::vector<Vec3f>((std::size_t{1} << 32U) / sizeof(Vec3f));
+  std::ostringstream stream;
+  CHECK_THROWS_AS(writeGlb(stream, scene), LimitError);
+  CHECK_THROWS_WITH(writeGlb(stream, scene), Catch::Contains("less than 4 GiB"));
+  CHECK(stream.str().empty());
 }
 
 TEST_CASE("a stream that fails while a .glb is written is an error", "[shaded][io][error]") {

@@ -415,7 +415,11 @@ FileDiff diffVdb(const std::filesystem::path& a, const std::filesystem::path& b,
   const Tolerance checked(options);
   const bool ownA = isSoundOwnVdb(a);
   const bool ownB = isSoundOwnVdb(b);
-  if (!ownA || !ownB) return diffFiles(readVdb(a), readVdb(b), options);
+  if (!ownA || !ownB) {
+    const VdbFile fileA = readVdb(a);
+    const VdbFile fileB = readVdb(b);
+    return diffFiles(fileA, fileB, options);
+  }
   const VdbIndex indexA = readVdbIndex(a);
   const VdbIndex indexB = readVdbIndex(b);
   const std::map<std::string, GridDiff> same = sameTrees(indexA, indexB, options);
@@ -428,7 +432,9 @@ FileDiff diffVdb(const std::filesystem::path& a, const std::filesystem::path& b,
     const auto wants = [&](const std::string& name) {
       return isChosen(name, options) && !same.contains(name);
     };
-    diff = diffFiles(readOwnVdb(a, wants), readOwnVdb(b, wants), others);
+    const VdbFile fileA = readOwnVdb(a, wants);
+    const VdbFile fileB = readOwnVdb(b, wants);
+    diff = diffFiles(fileA, fileB, others);
   }
   for (const auto& [name, grid] : same) diff.grids.push_back(grid);
   std::sort(diff.grids.begin(), diff.grids.end(),

@@ -5,6 +5,7 @@
 #include "libvox/core/error.h"
 #include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
+#include "libvox/core/progress.h"
 #include "libvox/io/input_file.h"
 #include "libvox/mesh/triangulate.h"
 #include "libvox/pipeline/colors.h"
