@@ -6,6 +6,7 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/version.h"
 #include "libvox/io/byte_order.h"
+#include "libvox/io/mesh_buffer.h"
 
 #include <nlohmann/json.hpp>
 
@@ -30,42 +31,26 @@ std::uint64_t padded(std::uint64_t bytes) {
   return (bytes + 3) / 4 * 4;
 }
 
-/// Writes 32-bit numbers and bytes in large pieces.
+/// 32-bit numbers and bytes of a glTF file.
 class BinaryWriter {
  public:
-  explicit BinaryWriter(std::ostream& out) : out_(out) {}
+  explicit BinaryWriter(std::ostream& out) : buffer_(out) {}
 
   template <class T>
   void number(T value) {
-    appendLittleEndian(buffer_, value);
-    constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
-    if (buffer_.size() >= kBufferBytes) send();
+    appendLittleEndian(buffer_.bytes(), value);
+    buffer_.endItem();
   }
   /// @param filler  up to a multiple of four bytes
   void paddedBytes(std::string_view bytes, char filler) {
-    send();
-    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    buffer_.append(padded(bytes.size()) - bytes.size(), filler);
-    check();
+    buffer_.bytes() += bytes;
+    buffer_.bytes().append(padded(bytes.size()) - bytes.size(), filler);
+    buffer_.endItem();
   }
-  void finish() {
-    send();
-    out_.flush();
-    check();
-  }
+  void finish() { buffer_.finish(); }
 
  private:
-  void send() {
-    out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-    buffer_.clear();
-    check();
-  }
-  void check() const {
-    if (!out_) throw IoError("the mesh could not be written; check the free space and permissions");
-  }
-
-  std::ostream& out_;
-  std::string buffer_;
+  MeshBuffer buffer_;
 };
 
 /// The JSON of a scene, and what its buffer holds.

@@ -6,6 +6,7 @@
 #include "libvox/core/error.h"
 #include "libvox/io/byte_order.h"
 #include "libvox/io/input_file.h"
+#include "libvox/io/mesh_buffer.h"
 
 #include <algorithm>
 #include <array>
@@ -19,34 +20,24 @@ namespace vox {
 
 namespace {
 
-constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 constexpr int kDigits = 17;  // enough to distinguish any two doubles
 
-// Collects output and writes it to the stream in large pieces.
+/// Texts and numbers of a mesh file.
 class Writer {
  public:
-  explicit Writer(std::ostream& out) : out_(out) { buffer_.reserve(kBufferBytes + 64); }
+  explicit Writer(std::ostream& out) : buffer_(out) {}
 
-  void text(std::string_view text) { buffer_ += text; }
+  void text(std::string_view text) { buffer_.bytes() += text; }
   void count(std::size_t number) { convert(number); }
   void real(double number) { convert(number, std::chars_format::general, kDigits); }
   /// As few digits as distinguish it from other floats.
   void real(float number) { convert(number); }
   template <typename T>
   void binary(T number) {
-    appendLittleEndian(buffer_, number);
+    appendLittleEndian(buffer_.bytes(), number);
   }
-
-  // Called after an item: sends the buffer if it is full.
-  void endItem() {
-    if (buffer_.size() >= kBufferBytes) send();
-  }
-
-  void finish() {
-    send();
-    out_.flush();
-    check();
-  }
+  void endItem() { buffer_.endItem(); }
+  void finish() { buffer_.finish(); }
 
  private:
   template <typename... Arguments>
@@ -54,21 +45,10 @@ class Writer {
     std::array<char, 64> digits;
     const auto [end, error] =
         std::to_chars(digits.data(), digits.data() + digits.size(), arguments...);
-    buffer_.append(digits.data(), end);
+    buffer_.bytes().append(digits.data(), end);
   }
 
-  void send() {
-    out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-    buffer_.clear();
-    check();
-  }
-
-  void check() const {
-    if (!out_) throw IoError("the mesh could not be written; check the free space and permissions");
-  }
-
-  std::ostream& out_;
-  std::string buffer_;
+  MeshBuffer buffer_;
 };
 
 void writePoint(Writer& out, const Vec3d& point) {
