@@ -62,13 +62,16 @@ def github(reference, result):
         if "uses" in step:
             assert step["if"] == "always()" and step["uses"].startswith("actions/upload-artifact@")
             uploaded = filled(step["with"]["path"], values)
-        elif code == 0:
+        elif code == 0 or step.get("if") == "always()":
             environment = {name: filled(text, values) for name, text in step["env"].items()}
-            done = run(step["run"], environment)
-            code = done.returncode
+            done = run(step["run"], {**environment, "GITHUB_STEP_SUMMARY": "summary"})
+            code = code or done.returncode
             print(done.stdout[-300:], done.stderr[-300:])
     require_installed()
     assert os.path.isfile(f"{uploaded}/report.html") and os.path.isfile(f"{uploaded}/report.txt")
+    with open("summary", encoding="utf-8") as summary:
+        assert "2 files" in summary.read()
+    os.remove("summary")
     return code, uploaded
 
 
@@ -104,5 +107,5 @@ with tempfile.TemporaryDirectory() as folder:
         require_report(report, "The same")
         code, report = recipe("reference", "other")
         assert code == 1, (recipe, code)
-        require_report(report, "1 of 2 files")
+        require_report(report, "2 files: 1 differs, 1 same")
 print("both recipes compare and keep a report")

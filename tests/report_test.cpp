@@ -66,7 +66,7 @@ Comparison compared(const std::filesystem::path& a, const std::filesystem::path&
 }
 
 std::string reportOf(const openvdb::GridBase::Ptr& a, const openvdb::GridBase::Ptr& b) {
-  const test::TemporaryFolder folder;
+  static const test::TemporaryFolder folder;  // its name is in the report
   const auto fileA = save(folder, "a.vdb", a);
   const auto fileB = save(folder, "b.vdb", b);
   return diffReport(compared(fileA, fileB));
@@ -302,9 +302,13 @@ TEST_CASE("planted differences are named in the report", "[report]") {
   }
   SECTION("a value") {
     b->tree().setValueOnly(Coord(1, 2, 3), 0.5F);
-    const std::string report = reportOf(a, b);
-    CHECK_THAT(report, Contains("Values: 1 of 8,000 differ, by up to 0.5"));
-    CHECK_THAT(report, Contains("class=\"bars\""));
+    const std::string one = reportOf(a, b);
+    CHECK_THAT(one, Contains("Values: 1 of 8,000 differ, by up to 0.5"));
+    CHECK_THAT(one, Contains("All values differ by 0.5."));
+    b->tree().setValueOnly(Coord(1, 2, 4), 0.25F);
+    const std::string two = reportOf(a, b);
+    CHECK_THAT(two, Contains("Values: 2 of 8,000 differ, by up to 0.75"));
+    CHECK_THAT(two, Contains("class=\"bars\""));
   }
   SECTION("another name") {
     b->setName("other");
@@ -345,6 +349,62 @@ TEST_CASE("planted differences are named in the report", "[report]") {
   }
 }
 
+TEST_CASE("a report tells of voxels that moved within the tolerance", "[report]") {
+  const test::TemporaryFolder folder;
+  const auto fileA = save(folder, "a.vdb", block(kBox));
+  const auto fileB =
+      save(folder, "b.vdb", block(CoordBBox(kBox.min(), kBox.max().offsetBy(0, 0, 2))));
+  Comparison comparison = compared(fileA, fileB);
+  comparison.options.voxelTolerance = 2;
+  comparison.files[0].diff = diffVdb(fileA, fileB, comparison.options);
+  const std::string report = diffReport(comparison);
+  CHECK_THAT(report, Contains(">The same</h1>"));
+  CHECK_THAT(report, Contains("same within 2 voxels"));
+  CHECK_THAT(report, Contains("800 voxels only in B"));
+  CHECK_THAT(report, Contains("Up to 2 are allowed."));
+  CHECK_THAT(report, Contains("<figure>"));
+}
+
+TEST_CASE("a report is no verdict on files that cannot be read", "[report]") {
+  Comparison comparison;
+  comparison.areFolders = true;
+  comparison.files.emplace_back();
+  comparison.files[0].inA = comparison.files[0].inB = true;
+  comparison.files[0].error = "damaged.vdb: <b>";
+  const std::string report = diffReport(comparison);
+  CHECK_THAT(report, Contains(">Not all could be compared</h1>"));
+  CHECK_THAT(report, Contains("damaged.vdb: &lt;b&gt;"));
+}
+
+TEST_CASE("a report of huge tiles needs no memory for their voxels", "[report]") {
+  openvdb::initialize();
+  const auto a = openvdb::FloatGrid::create(0);
+  a->setName("density");
+  a->tree().addTile(3, Coord(0, 0, 0), 1.0F, true);  // 4096^3 voxels
+  const auto b = openvdb::FloatGrid::create(0);
+  b->setName("density");
+  b->tree().setValueOn(Coord(0, 0, 0), 1.0F);
+  const std::string report = reportOf(a, b);
+  CHECK(report.size() < 2000000);
+  CHECK_THAT(report, Contains("68,719,476,735 voxels only in A"));
+  CHECK(huesOf(picturesOf(a, b)[2].image).red > 1000);
+
+  const auto moved = a->deepCopy();
+  moved->setTransform(openvdb::math::Transform::createLinearTransform(1.1));
+  const std::string far = overlayPictures(*a, *moved, *lookOf(a), *lookOf(moved))[0].description;
+  CHECK_THAT(far, Contains("up to 709.275 world units apart"));  // sqrt(3) 4095 / 10
+}
+
+TEST_CASE("differences of values that cannot be drawn are told", "[report]") {
+  openvdb::FloatTree values;
+  values.setValueOn(Coord(0, 0, 0), std::numeric_limits<float>::infinity());
+  CHECK_THAT(histogramFigure(histogramOf(values)), Contains("1 are not finite"));
+  values.clear();
+  values.setValueOn(Coord(0, 0, 0), 2);
+  values.setValueOn(Coord(9, 0, 0), 2);
+  CHECK_THAT(histogramFigure(histogramOf(values)), Contains("All values differ by 2."));
+}
+
 TEST_CASE("a report of many differences has less than 2 MB", "[report]") {
   const auto a = block(CoordBBox::createCube(Coord(0), 150));
   const auto b = block(CoordBBox::createCube(Coord(0), 150));
@@ -377,7 +437,7 @@ TEST_CASE("a report names the files that only one folder has, and links to the o
   comparison.areFolders = true;
   comparison.files = diffFolders(comparison.a, comparison.b, {}).files;
   const std::string report = diffReport(comparison);
-  CHECK_THAT(report, Contains("3 of 4 files differ"));
+  CHECK_THAT(report, Contains("4 files: 1 differs, 1 not compared, 1 only in A, 1 same."));
   CHECK_THAT(report, Contains("<a href=\"#file-0\">&lt;b&gt;.vdb</a>"));
   CHECK_THAT(report, Contains("<h2 id=\"file-0\">&lt;b&gt;.vdb</h2>"));
   CHECK_THAT(report, Contains("800 voxels only in B"));

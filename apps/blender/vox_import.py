@@ -54,7 +54,17 @@ def render_picture(path):
         teller.join()
 
 
+def check_picture(path):
+    """Refuses a file that cannot be written, before the work starts."""
+    if not path.lower().endswith(".png"):
+        raise RuntimeError(f"{path}: the name of the picture must end in .png")
+    if not os.access(os.path.dirname(os.path.abspath(path)), os.W_OK):
+        raise RuntimeError(f"{path}: the folder does not exist or cannot be written to")
+
+
 def main(arguments):
+    if len(arguments) > 1:
+        check_picture(arguments[1])
     addon = load_addon()
     addon.register()
     if not arguments:

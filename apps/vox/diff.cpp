@@ -36,12 +36,16 @@ bool isFolder(const std::string& path) {
 }
 
 /// @throws UsageError  one is a folder, the other is none
+/// @throws InputError  one is a folder, the other does not exist
 bool areFolders(const DiffArguments& options) {
   const bool folders = isFolder(options.a);
-  if (folders != isFolder(options.b))
-    throw UsageError((folders ? options.b : options.a) + ": is no folder, but " +
-                     (folders ? options.a : options.b) + " is; name two files or two folders");
-  return folders;
+  if (folders == isFolder(options.b)) return folders;
+  const std::string& other = folders ? options.b : options.a;
+  std::error_code ignored;
+  if (!std::filesystem::exists(other, ignored))
+    throw InputError(other + ": no such folder; check the path");
+  throw UsageError(other + ": is no folder, but " + (folders ? options.a : options.b) +
+                   " is; name two files or two folders");
 }
 
 /// Checks the name of a file to write.
@@ -118,18 +122,18 @@ bool compareFiles(const DiffArguments& options, Tell&& tellResult) {
   files.name = options.a;
   files.inA = files.inB = true;
   files.diff = diff;
-  writePage(options, {files}, false);
   writeJunitReport(options, suiteOf(diff, suiteName(options)));
-  tellResult(diff);
+  tellResult(diff);  // first: a page may be too large for the memory
+  writePage(options, {files}, false);
   return diff.same();
 }
 
 template <class Tell>
 bool compareFolders(const DiffArguments& options, Tell&& tellResult) {
   const FolderDiff diff = diffFolders(options.a, options.b, options.diff);
-  writePage(options, diff.files, true);
   writeJunitReport(options, suiteOf(diff, suiteName(options)));
   tellResult(diff);
+  writePage(options, diff.files, true);
   const auto isWrong = [](const FilePairDiff& file) { return !file.error.empty(); };
   const auto wrong = std::find_if(diff.files.begin(), diff.files.end(), isWrong);
   if (wrong == diff.files.end()) return diff.same();

@@ -148,26 +148,26 @@ class Places {
  public:
   explicit Places(const NanoBytes& grid) : begin_(grid.data()), size_(grid.size()) {}
 
+  std::uint64_t offsetOf(const void* object) const {
+    return static_cast<std::uint64_t>(static_cast<const char*>(object) - begin_);
+  }
+
   /// The bytes from an offset to the end.
   std::uint64_t bytesFrom(const void* origin, std::int64_t offset) const {
-    const std::uint64_t place = placeOf(origin) + static_cast<std::uint64_t>(offset);
+    const std::uint64_t place = offsetOf(origin) + static_cast<std::uint64_t>(offset);
     return place > size_ ? 0 : size_ - place;
   }
 
   /// The first of some objects at an offset.
   template <class Object>
   const Object& at(const void* origin, std::int64_t offset, std::uint64_t count = 1) const {
-    const std::uint64_t place = placeOf(origin) + static_cast<std::uint64_t>(offset);
+    const std::uint64_t place = offsetOf(origin) + static_cast<std::uint64_t>(offset);
     if (place % NANOVDB_DATA_ALIGNMENT != 0 || bytesFrom(origin, offset) / sizeof(Object) < count)
       refuseDamaged("an offset leads out of a grid");
     return *reinterpret_cast<const Object*>(begin_ + place);
   }
 
  private:
-  std::uint64_t placeOf(const void* origin) const {
-    return static_cast<std::uint64_t>(static_cast<const char*>(origin) - begin_);
-  }
-
   const char* begin_;
   std::uint64_t size_;
 };
@@ -187,6 +187,12 @@ void requireName(const nanovdb::GridData& head, const Places& places) {
   requireEnd(last.getBlindData<char>(), bytes);
 }
 
+/// A node that does not know its place.
+struct UnplacedNode {
+  const nanovdb::CoordBBox* box;  ///< of its active voxels: empty
+  nanovdb::Coord origin;
+};
+
 /// Checks the nodes of a grid: each lies within it, where its parent says, and they are as many as
 /// the tree counts. So neither the validation nor the conversion leaves the bytes of the grid, and
 /// the result is not much larger than these.
@@ -202,6 +208,9 @@ class NodeCheck {
     for (std::size_t level = 0; level < counts_.size(); ++level)
       if (counts_[level] != tree_.mNodeCount[level]) refuseDamaged("nodes are missing");
   }
+
+  /// The place of these must be set before the grid is used.
+  const std::vector<UnplacedNode>& unplaced() const { return unplaced_; }
 
  private:
   using Root = nanovdb::NanoRoot<Build>;
@@ -254,18 +263,31 @@ class NodeCheck {
   void check(const Node& node, const nanovdb::Coord& origin) {
     if (++counts_[Node::LEVEL] > tree_.mNodeCount[Node::LEVEL])
       refuseDamaged("it has more nodes than it says");
-    if (node.origin() != origin) refuseDamaged("a node is not where its parent says");
+    requirePlace(node, origin);
     if constexpr (std::is_same_v<Build, nanovdb::FpN> && Node::LEVEL == 0) {
       constexpr unsigned kMostLog = 4;  // 16 bits
       const unsigned log = node.data()->mFlags >> 5U;
       if (log > kMostLog || places_.bytesFrom(&node, sizeof(Node)) < (std::uint64_t{64} << log))
         refuseDamaged("the values of a leaf are missing");
     }
-    if constexpr (Node::LEVEL > 0) checkChildren(node);
+    if constexpr (Node::LEVEL > 0) checkChildren(node, origin);
+  }
+
+  /// A node knows its place by the box of its active voxels. NanoVDB makes empty boxes for nodes
+  /// that have none.
+  template <class Node>
+  void requirePlace(const Node& node, const nanovdb::Coord& origin) {
+    if constexpr (Node::LEVEL > 0) {
+      if (node.data()->mBBox.empty()) {
+        unplaced_.push_back({&node.data()->mBBox, origin});
+        return;
+      }
+    }
+    if (node.origin() != origin) refuseDamaged("a node is not where its parent says");
   }
 
   template <class Node>
-  void checkChildren(const Node& node) {
+  void checkChildren(const Node& node, const nanovdb::Coord& origin) {
     using Child = typename Node::ChildNodeType;
     const auto& data = *node.data();
     for (std::uint32_t n = 0; n < Node::SIZE; ++n) {
@@ -274,12 +296,14 @@ class NodeCheck {
         continue;
       }
       if (data.mValueMask.isOn(n)) refuseDamaged("a node is a tile, too");
-      check(places_.at<Child>(&node, data.mTable[n].child), node.offsetToGlobalCoord(n));
+      const nanovdb::Coord local = Node::OffsetToLocalCoord(n);
+      check(places_.at<Child>(&node, data.mTable[n].child), origin + (local << Child::TOTAL));
     }
   }
 
   const Places& places_;
   const nanovdb::TreeData<3>& tree_;
+  std::vector<UnplacedNode> unplaced_;
   std::array<std::uint64_t, 3> counts_{};  // by level
 };
 
@@ -295,17 +319,22 @@ openvdb::math::Transform::Ptr transformOf(const nanovdb::Map& map) {
 }
 
 template <class Build>
-openvdb::GridBase::Ptr decoded(const NanoBytes& bytes) {
+openvdb::GridBase::Ptr decoded(NanoBytes& bytes) {
   const auto& grid = *reinterpret_cast<const nanovdb::NanoGrid<Build>*>(bytes.data());
-  NodeCheck<Build>(Places(bytes), *grid.data());
+  const Places places(bytes);
+  const NodeCheck<Build> nodes(places, *grid.data());
   const std::string wrong = nanovdb::GridValidator<Build>::check(grid, /*detailed=*/true);
   if (!wrong.empty()) refuseDamaged("NanoVDB says: " + wrong);
+  for (const UnplacedNode& node : nodes.unplaced()) {  // after the checksum is compared
+    const nanovdb::CoordBBox box(node.origin, node.origin - nanovdb::Coord(1));
+    std::memcpy(bytes.data() + places.offsetOf(node.box), &box, sizeof(box));
+  }
   openvdb::GridBase::Ptr made = nanovdb::nanoToOpenVDB(grid);
   made->setTransform(transformOf(grid.map()));
   return made;
 }
 
-openvdb::GridBase::Ptr decode(const NanoBytes& bytes) {
+openvdb::GridBase::Ptr decode(NanoBytes bytes) {
   const auto& head = *reinterpret_cast<const nanovdb::GridData*>(bytes.data());
   if (head.mMagic != NANOVDB_MAGIC_NUMBER || head.mGridSize != bytes.size() || head.mGridIndex != 0)
     refuseDamaged("a grid does not begin as a NanoVDB grid does");

@@ -195,7 +195,9 @@ MeshFormat meshFormatFor(const std::filesystem::path& file) {
   if (extension == ".obj") return MeshFormat::kObj;
   if (extension == ".ply") return MeshFormat::kPly;
   if (extension == ".off") return MeshFormat::kOff;
-  throw UsageError(file.string() + ": cannot write this format; use .obj, .ply, .off or .glb");
+  throw UsageError(
+      file.string() +
+      ": cannot write this format; use .obj, .ply or .off, or .glb with vox subdivide");
 }
 
 void writeMesh(std::ostream& out, const PolygonMesh& mesh, MeshFormat format) {

@@ -93,6 +93,7 @@ Shader::Shader(const VisibleGrids& visible, const RayCaster& surface, const View
   if (visible.voxels) congradient_.emplace(*visible.voxels);
   if (visible.normals) normals_.emplace(visible.normals->tree());
   if (visible.colors) colors_.emplace(visible.colors->tree());
+  computedColors_ = visible.colorAt;
 }
 
 std::optional<Vec3d> Shader::storedNormal(const openvdb::Coord& voxel) {
@@ -112,7 +113,13 @@ Vec3d Shader::normalAt(const RayHit& hit, const Vec3d& direction) {
 
 Light Shader::colorAt(const openvdb::Coord& voxel) {
   openvdb::Vec3f color;
-  if (!colors_ || !colors_->probeValue(voxel, color)) return Light::Constant(kAlbedo);
+  if (computedColors_) {
+    const auto computed = computedColors_(voxel);
+    if (!computed) return Light::Constant(kAlbedo);
+    color = *computed;
+  } else if (!colors_ || !colors_->probeValue(voxel, color)) {
+    return Light::Constant(kAlbedo);
+  }
   Light light = fromOpenVdb(color);
   for (double& part : light) part = part > 0 ? std::min(part, 1.0) : 0;  // NaN, too
   return light;

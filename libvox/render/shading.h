@@ -8,6 +8,7 @@
 #include "libvox/render/visible.h"
 #include "libvox/volume/shading_normals.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -47,6 +48,7 @@ class Shader {
   std::optional<CongradientNormals> congradient_;
   std::optional<Vectors> normals_;
   std::optional<Vectors> colors_;
+  std::function<std::optional<openvdb::Vec3f>(const openvdb::Coord&)> computedColors_;
   double occlusionReach_;  // voxels
 };
 

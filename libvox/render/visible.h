@@ -3,6 +3,8 @@
 #include "libvox/grid/openvdb.h"
 #include "libvox/render/visible_options.h"
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,10 +12,12 @@ namespace vox {
 
 /// The visible part of the grids of a file.
 struct VisibleGrids {
-  openvdb::MaskTree::ConstPtr voxels;          ///< solid voxels; null if there is a level set
-  openvdb::FloatGrid::ConstPtr levelSet;       ///< null if there are voxels
-  openvdb::Vec3SGrid::ConstPtr normals;        ///< world space; null if there are none
-  openvdb::Vec3SGrid::ConstPtr colors;         ///< linear, 0 .. 1; null if there are none
+  openvdb::MaskTree::ConstPtr voxels;     ///< solid voxels; null if there is a level set
+  openvdb::FloatGrid::ConstPtr levelSet;  ///< null if there are voxels
+  openvdb::Vec3SGrid::ConstPtr normals;   ///< world space; null if there are none
+  openvdb::Vec3SGrid::ConstPtr colors;    ///< linear, 0 .. 1; null if there are none
+  /// Colour of a voxel, instead of `colors`: linear; empty for plain ones. Called from any thread.
+  std::function<std::optional<openvdb::Vec3f>(const openvdb::Coord&)> colorAt;
   openvdb::math::Transform::ConstPtr toWorld;  ///< of the grid that is shown; linear
   std::vector<openvdb::CoordBBox> boxes;  ///< of the voxels that are shown, or near the surface
 };

@@ -2,6 +2,7 @@
 
 #include "libvox/report/clusters.h"
 
+#include "libvox/core/error.h"
 #include "libvox/inspect/components.h"
 
 #include <algorithm>
@@ -36,8 +37,14 @@ std::int64_t squaredDistance(const Coord& a, const Coord& b) {
 }  // namespace
 
 std::vector<Cluster> largestClusters(const openvdb::MaskTree& voxels, std::size_t most) {
+  std::vector<Component> components;
+  try {
+    components = activeComponents(voxels);
+  } catch (const LimitError&) {  // huge tiles
+    return {};
+  }
   std::vector<Cluster> clusters;
-  for (const Component& component : activeComponents(voxels))
+  for (const Component& component : components)
     clusters.push_back(
         {component.voxels, Coord(component.first[0], component.first[1], component.first[2])});
   std::stable_sort(clusters.begin(), clusters.end(),

@@ -13,8 +13,8 @@ struct Cluster {
   openvdb::Coord first;  ///< lowest x, then y, then z
 };
 
-/// The largest clusters, largest first.
-/// @throws LimitError  as activeComponents
+/// The largest clusters, largest first. None if the voxels are too many to look for them
+/// (activeComponents).
 std::vector<Cluster> largestClusters(const openvdb::MaskTree& voxels, std::size_t most);
 
 /// Part of the cluster of a voxel that a close-up shows: all of it, or if it is longer than `side`,

@@ -38,10 +38,12 @@ class Body {
  public:
   void add(std::string_view html) { html_ += html; }
 
+  bool hasRoom(std::size_t bytes) const { return html_.size() + bytes <= kMostBytes; }
+
   /// Adds something that the page can do without.
   /// @return  false: there is no room for it
   bool addIfItFits(std::string_view html, std::size_t reserved) {
-    if (html_.size() + html.size() + reserved > kMostBytes) return false;
+    if (!hasRoom(html.size() + reserved)) return false;
     html_ += html;
     return true;
   }
@@ -61,8 +63,17 @@ std::string legendOf(const DifferenceLook& look) {
   if (look.values() != nullptr && look.values()->activeVoxelCount() > 0)
     html +=
         entry("linear-gradient(90deg," + cssColor(kSmallColor) + ',' + cssColor(kLargeColor) + ')',
-              "in both, values differ by 0 to " + shortNumber(look.largest()), " scale");
-  return html + entry(cssColor(kCommonColor), "no difference", "") + "</p>\n";
+              look.largest() > 0 ? "in both, values differ by 0 to " + shortNumber(look.largest())
+                                 : "in both, values differ",
+              " scale");
+  const std::string partial =
+      look.isPartial() ? " Of this level set, voxels within one voxel of the surface are shown."
+                       : "";
+  return html + entry(cssColor(kCommonColor), "no difference", "") +
+         "</p>\n<p class=\"note\">In the pictures z is up, and the front is what is seen along +y. "
+         "Voxels are "
+         "compared by their indices." +
+         partial + "</p>\n";
 }
 
 std::string figures(const std::vector<Picture>& pictures, const std::string& more = {}) {
@@ -88,6 +99,10 @@ struct Shown {
 /// What differs between two grids of a name, voxel by voxel.
 void addDifference(const GridBase::Ptr& a, const GridBase::Ptr& b, const DiffOptions& options,
                    const std::string& id, std::size_t reserved, Shown& shown, Body& body) {
+  constexpr std::size_t kLeastRoom = 150000;
+  const char* const noRoom =
+      "<p class=\"soft\">There was no room for the pictures of this grid.</p>\n";
+  if (!body.hasRoom(kLeastRoom + reserved)) return body.add(noRoom);
   auto look = std::make_unique<const DifferenceLook>(*a, *b, options);
   if (shown.look && shown.look->looksLike(*look)) {
     body.add("<p>The same voxels differ as in the grid " + escaped(shown.name) + ".</p>\n");
@@ -112,7 +127,7 @@ void addDifference(const GridBase::Ptr& a, const GridBase::Ptr& b, const DiffOpt
     }
     for (Picture& picture : pictures) picture.image = halved(picture.image);
   }
-  body.add("<p class=\"soft\">There was no room for the pictures of this grid.</p>\n");
+  body.add(noRoom);
 }
 
 void addPictures(const GridDiff& diff, const GridBase::Ptr& a, const GridBase::Ptr& b,
@@ -132,7 +147,7 @@ void addPictures(const GridDiff& diff, const GridBase::Ptr& a, const GridBase::P
                                  [](const TextDiff& text) { return text.what == "transform"; });
   if (moved) body.addIfItFits(overlay(a, b), reserved);
   const bool valuesDiffer = diff.values && diff.values->differing > 0;
-  if (!diff.topology.same() || valuesDiffer)
+  if (diff.topology.onlyA > 0 || diff.topology.onlyB > 0 || valuesDiffer)
     addDifference(a, b, options, id, reserved, shown, body);
 }
 
@@ -150,7 +165,7 @@ void addFile(const Comparison& comparison, const FilePairDiff& file, const std::
               [&](const std::string& name, const GridBase::Ptr& gridA, const GridBase::Ptr& gridB) {
                 if (diff == file.diff.grids.end() || diff->name != name)
                   throw InputError(file.name + ": has changed while it was compared");
-                if (!diff->same()) {
+                if (isRemarkable(*diff)) {
                   body.add("<h3>Grid " + escaped(name) + "</h3>\n" + factsOf(*diff));
                   addPictures(*diff, gridA, gridB, options,
                               id + '-' + std::to_string(diff - file.diff.grids.begin()), reserved,
@@ -161,9 +176,8 @@ void addFile(const Comparison& comparison, const FilePairDiff& file, const std::
 }
 
 std::string headOf(const Comparison& comparison) {
-  const bool same = comparison.same();
-  return std::string("<h1 class=\"") + (same ? "good" : "bad") + "\">" +
-         (same ? "The same" : "Different") + "</h1>\n<p>" + escaped(verdictOf(comparison)) +
+  return std::string("<h1 class=\"") + (comparison.same() ? "good" : "bad") + "\">" +
+         headingOf(comparison) + "</h1>\n<p>" + escaped(verdictOf(comparison)) +
          "</p>\n<p><b>A</b> <code>" + escaped(comparison.a) + "</code><br>\n<b>B</b> <code>" +
          escaped(comparison.b) + "</code></p>\n<p>The command that compares them:</p>\n<pre>" +
          escaped(shellLine(comparison.command)) + "</pre>\n";
@@ -188,16 +202,14 @@ std::string diffReport(const Comparison& comparison) {
     const FilePairDiff& file = comparison.files[i];
     const std::string tables = tablesOf(file);
     reserved -= tables.size();
-    if (!isOne && file.same()) continue;
+    if (!isOne && !isRemarkable(file)) continue;
     const std::string id = "file-" + std::to_string(i);
     body.add(isOne ? "<h2>Grids</h2>\n"
                    : "<h2 id=\"" + id + "\">" + escaped(file.name) + "</h2>\n");
     body.add(tables);
     if (file.inA && file.inB && file.error.empty()) addFile(comparison, file, id, reserved, body);
   }
-  return page(std::string(comparison.same() ? "Same" : "Different") + ": " + comparison.a +
-                  " and " + comparison.b,
-              body.html_);
+  return page(headingOf(comparison) + ": " + comparison.a + " and " + comparison.b, body.html_);
 }
 
 }  // namespace vox

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace vox {
 namespace {
@@ -22,6 +23,12 @@ std::string at(const std::optional<VoxelIndex>& voxel) {
          std::to_string(z) + ").";
 }
 
+/// As much of a text as a table has room for.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 300;
+  return text.size() <= kMost ? escaped(text) : escaped(text.substr(0, kMost)) + "&hellip;";
+}
+
 std::string verdict(bool same) {
   return same ? "<span class=\"good\">same</span>" : "<span class=\"bad\">differs</span>";
 }
@@ -31,11 +38,14 @@ std::string number(const std::string& text) {
 }
 
 std::string rowOf(const GridDiff& grid) {
-  std::string row = "<tr><td>" + escaped(grid.name) + "</td><td class=\"word\">";
+  std::string row = "<tr><td>" + shortened(grid.name) + "</td><td class=\"word\">";
   if (!grid.inA || !grid.inB)
     row += std::string("<span class=\"bad\">only in ") + (grid.inA ? 'A' : 'B') + "</span>";
   else
-    row += verdict(grid.same());
+    row += grid.same() && isRemarkable(grid)
+               ? "<span class=\"good\">same within " + shortNumber(grid.topology.allowed) +
+                     (grid.topology.allowed == 1 ? " voxel" : " voxels") + "</span>"
+               : verdict(grid.same());
   row += "</td>";
   const TopologyDiff& topology = grid.topology;
   row += number(grid.inA ? grouped(topology.active[0]) : "");
@@ -54,12 +64,12 @@ std::string rowOf(const GridDiff& grid) {
 std::string textTable(const std::vector<TextDiff>& texts, const std::string& what) {
   if (texts.empty()) return {};
   const auto cell = [](const std::string& text) {
-    return "<td>" + (text.empty() ? "<span class=\"soft\">none</span>" : escaped(text)) + "</td>";
+    return "<td>" + (text.empty() ? "<span class=\"soft\">none</span>" : shortened(text)) + "</td>";
   };
   std::string html = "<div class=\"table\"><table><thead><tr><th scope=\"col\">" + what +
                      "</th><th scope=\"col\">A</th><th scope=\"col\">B</th></tr></thead><tbody>\n";
   for (const TextDiff& text : texts)
-    html += "<tr><td>" + escaped(text.what) + "</td>" + cell(text.a) + cell(text.b) + "</tr>\n";
+    html += "<tr><td>" + shortened(text.what) + "</td>" + cell(text.a) + cell(text.b) + "</tr>\n";
   return html + "</tbody></table></div>\n";
 }
 
@@ -70,8 +80,11 @@ std::string topologyText(const TopologyDiff& topology) {
                                       (topology.distance == 1 ? " voxel" : " voxels") +
                                       " away from the other grid."
                                 : " The other grid has no voxels.";
+  const std::string allowed =
+      topology.same() ? " Up to " + shortNumber(topology.allowed) + " are allowed." : "";
   return "<p>Topology: " + plural(topology.onlyA, "voxel") + " only in A, " +
-         plural(topology.onlyB, "voxel") + " only in B." + apart + at(topology.first) + "</p>\n";
+         plural(topology.onlyB, "voxel") + " only in B." + apart + allowed + at(topology.first) +
+         "</p>\n";
 }
 
 std::string valueText(const ValueDiff& values) {
@@ -89,7 +102,21 @@ const char* stateOf(const FilePairDiff& file) {
   if (!file.inA) return "only in B";
   if (!file.inB) return "only in A";
   if (!file.error.empty()) return "not compared";
-  return file.diff.same() ? "same" : "differs";
+  if (!file.diff.same()) return "differs";
+  return isRemarkable(file) ? "same within the tolerance" : "same";
+}
+
+/// How many files are in each state: "5 files: 3 same, 1 differs, 1 only in A".
+std::string countsOf(const Comparison& comparison) {
+  std::map<std::string, std::uint64_t> counts;
+  for (const FilePairDiff& file : comparison.files) ++counts[stateOf(file)];
+  std::string text = plural(comparison.files.size(), "file") + ":";
+  const char* separator = " ";
+  for (const auto& [state, count] : counts) {
+    text += separator + grouped(count) + ' ' + state;
+    separator = ", ";
+  }
+  return text + '.';
 }
 
 std::uint64_t differingGrids(const FileDiff& diff) {
@@ -99,18 +126,31 @@ std::uint64_t differingGrids(const FileDiff& diff) {
 
 }  // namespace
 
+bool isRemarkable(const GridDiff& grid) {
+  return !grid.same() || grid.topology.onlyA > 0 || grid.topology.onlyB > 0;
+}
+
+bool isRemarkable(const FilePairDiff& file) {
+  return !file.same() || std::any_of(file.diff.grids.begin(), file.diff.grids.end(),
+                                     [](const GridDiff& grid) { return isRemarkable(grid); });
+}
+
+std::string headingOf(const Comparison& comparison) {
+  if (comparison.same()) return "The same";
+  const bool onlyErrors =
+      std::all_of(comparison.files.begin(), comparison.files.end(),
+                  [](const FilePairDiff& file) { return file.same() || !file.error.empty(); });
+  return onlyErrors ? "Not all could be compared" : "Different";
+}
+
 std::string verdictOf(const Comparison& comparison) {
-  if (comparison.areFolders) {
-    const auto differing = static_cast<std::uint64_t>(
-        std::count_if(comparison.files.begin(), comparison.files.end(),
-                      [](const FilePairDiff& file) { return !file.same(); }));
-    if (differing == 0) return plural(comparison.files.size(), "file") + " compared.";
-    return grouped(differing) + " of " + plural(comparison.files.size(), "file") +
-           " differ, are in one folder only, or cannot be compared.";
-  }
+  if (comparison.areFolders) return countsOf(comparison);
   const FileDiff& diff = comparison.files.front().diff;
   const std::uint64_t differing = differingGrids(diff);
-  if (diff.same()) return plural(diff.grids.size(), "grid") + " compared.";
+  if (diff.same())
+    return plural(diff.grids.size(), "grid") + (isRemarkable(comparison.files.front())
+                                                    ? " compared; voxels moved, but not too far."
+                                                    : " compared.");
   std::string text = grouped(differing) + " of " + plural(diff.grids.size(), "grid") +
                      (differing == 1 ? " differs" : " differ");
   if (!diff.metadata.empty())
@@ -127,9 +167,13 @@ std::string indexOf(const Comparison& comparison) {
     const FilePairDiff& file = comparison.files[i];
     const std::string name = escaped(file.name);
     html += "<tr><td>" +
-            (file.same() ? name : "<a href=\"#file-" + std::to_string(i) + "\">" + name + "</a>") +
+            (!isRemarkable(file) ? name
+                                 : "<a href=\"#file-" + std::to_string(i) + "\">" + name + "</a>") +
             "</td><td class=\"word\"><span class=\"" + (file.same() ? "good" : "bad") + "\">" +
-            stateOf(file) + "</span></td>" + number(grouped(differingGrids(file.diff))) + "</tr>\n";
+            stateOf(file) + "</span></td>" +
+            number(file.inA && file.inB && file.error.empty() ? grouped(differingGrids(file.diff))
+                                                              : "") +
+            "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
 }
@@ -143,7 +187,7 @@ std::string tablesOf(const FilePairDiff& file) {
       "<div class=\"table\"><table><thead><tr><th scope=\"col\">grid</th>"
       "<th scope=\"col\">verdict</th>";
   for (const char* head : {"voxels in A", "voxels in B", "only in A", "only in B",
-                           "distance, voxels", "values that differ", "by up to"})
+                           "farthest from the other, voxels", "values that differ", "by up to"})
     html += std::string("<th scope=\"col\" class=\"number\">") + head + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const GridDiff& grid : file.diff.grids) html += rowOf(grid);

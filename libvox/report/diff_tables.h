@@ -6,6 +6,13 @@
 
 namespace vox {
 
+/// True if there is something to tell: a difference, or voxels that moved within the tolerance.
+bool isRemarkable(const GridDiff& grid);
+bool isRemarkable(const FilePairDiff& file);
+
+/// A few words: "The same".
+std::string headingOf(const Comparison& comparison);
+
 /// One sentence: what differs.
 std::string verdictOf(const Comparison& comparison);
 

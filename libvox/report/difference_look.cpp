@@ -64,6 +64,7 @@ DifferenceLook::DifferenceLook(const openvdb::GridBase& a, const openvdb::GridBa
   }
   const auto shown = std::make_shared<MaskTree>(*differing_);
   shown->topologyIntersection(*all_);
+  isPartial_ = !shown->empty() && shown->activeVoxelCount() < differing_->activeVoxelCount();
   if (shown->activeVoxelCount() > 0)
     differing_ = shown;
   else
@@ -90,9 +91,26 @@ bool DifferenceLook::looksLike(const DifferenceLook& other) const {
   const auto same = [](const openvdb::MaskGrid::Ptr& a, const openvdb::MaskGrid::Ptr& b) {
     return a->tree().hasSameTopology(b->tree());
   };
-  return largest_ == 0 && other.largest_ == 0 && same(difference_.onlyA, other.difference_.onlyA) &&
+  const auto hasValues = [](const DifferenceLook& look) {
+    return look.values() != nullptr && !look.values()->empty();
+  };
+  return !hasValues(*this) && !hasValues(other) &&
+         same(difference_.onlyA, other.difference_.onlyA) &&
          same(difference_.onlyB, other.difference_.onlyB) &&
          differing_->hasSameTopology(*other.differing_);
+}
+
+std::optional<openvdb::Vec3f> DifferenceLook::colorAt(const Coord& voxel) const {
+  switch (changeAt(voxel)) {
+    case VoxelChange::kOnlyA:
+      return linearColor(kOnlyAColor);
+    case VoxelChange::kOnlyB:
+      return linearColor(kOnlyBColor);
+    case VoxelChange::kValue:
+      return linearColor(valueColor(valuePart(voxel)));
+    default:
+      return std::nullopt;
+  }
 }
 
 VisibleGrids DifferenceLook::visible(const MaskTree& voxels, const CoordBBox& box) const {
@@ -100,19 +118,7 @@ VisibleGrids DifferenceLook::visible(const MaskTree& voxels, const CoordBBox& bo
   visible.toWorld = difference_.onlyA->transformPtr();
   visible.voxels = box.empty() ? std::make_shared<MaskTree>(voxels) : cut(voxels, box);
   visible.boxes = boxesOf(*visible.voxels);
-  MaskTree colored(*visible.voxels);
-  colored.topologyIntersection(*differing_);
-  const auto colors = openvdb::Vec3SGrid::create();
-  openvdb::tree::ValueAccessor<openvdb::Vec3STree> at(colors->tree());
-  colored.voxelizeActiveTiles();
-  for (auto voxel = colored.cbeginValueOn(); voxel; ++voxel) {
-    const Coord& coord = voxel.getCoord();
-    const VoxelChange change = changeAt(coord);
-    at.setValue(coord, linearColor(change == VoxelChange::kOnlyA   ? kOnlyAColor
-                                   : change == VoxelChange::kOnlyB ? kOnlyBColor
-                                                                   : valueColor(valuePart(coord))));
-  }
-  visible.colors = colors;
+  visible.colorAt = [this](const Coord& voxel) { return colorAt(voxel); };
   return visible;
 }
 

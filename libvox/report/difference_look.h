@@ -5,6 +5,8 @@
 #include "libvox/inspect/difference_grids.h"
 #include "libvox/render/visible.h"
 
+#include <optional>
+
 namespace vox {
 
 /// How a voxel of two grids differs.
@@ -32,14 +34,21 @@ class DifferenceLook {
   /// True if no values differ, and the same voxels are active in one grid only.
   bool looksLike(const DifferenceLook& other) const;
 
-  /// For pictures: the voxels of a tree in their colours.
+  /// True if voxels that differ are not shown: those of a level set that are far from its surface.
+  bool isPartial() const { return isPartial_; }
+
+  /// For pictures: the voxels of a tree in their colours. They need this object as long as they are
+  /// used.
   /// @param box  those within it only; empty: all
   VisibleGrids visible(const openvdb::MaskTree& voxels, const openvdb::CoordBBox& box) const;
 
  private:
+  std::optional<openvdb::Vec3f> colorAt(const openvdb::Coord& voxel) const;
+
   DifferenceGrids difference_;
   openvdb::MaskTree::Ptr all_;
   openvdb::MaskTree::Ptr differing_;
+  bool isPartial_ = false;
   double largest_ = 0;
 };
 

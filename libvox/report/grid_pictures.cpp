@@ -72,7 +72,7 @@ std::string textOf(const View& view) {
   if (view == *viewNamed("top")) return "from above";
   if (view == *viewNamed("bottom")) return "from below";
   return std::string("from ") + (view.elevation > 0 ? "above" : "below") + ", " +
-         shortNumber(view.azimuth) + " degrees around from the front";
+         shortNumber(view.azimuth) + " degrees to the right of the front";
 }
 
 std::string textOf(const Coord& voxel) {
@@ -114,20 +114,21 @@ std::array<double, 2> placeOf(const Coord& voxel, const Transform& toWorld, cons
   return camera.place(Vec3d(world[0], world[1], world[2]));
 }
 
+/// Middles of the clusters that are so small in the picture that a mark helps to find them.
 std::vector<std::array<double, 2>> placesOf(const std::vector<Cluster>& clusters,
-                                            const Transform& toWorld, const Camera& camera) {
+                                            const DifferenceLook& look, const Transform& toWorld,
+                                            const Camera& camera) {
+  constexpr double kSmall = 0.03;  // of the width of the picture
+  const double voxel = std::cbrt(std::abs(toWorld.baseMap()->determinant()));
   std::vector<std::array<double, 2>> places;
-  for (const Cluster& cluster : clusters) places.push_back(placeOf(cluster.first, toWorld, camera));
+  for (const Cluster& cluster : clusters) {
+    const double side = std::sqrt(static_cast<double>(cluster.voxels)) * voxel;
+    if (side > kSmall * 2 * camera.halfWidth) continue;
+    const CoordBBox box = closeUpBox(look.differing(), cluster.first, kCloseUpSide);
+    const openvdb::Vec3d world = toWorld.indexToWorld(box.getCenter());
+    places.push_back(camera.place(Vec3d(world[0], world[1], world[2])));
+  }
   return places;
-}
-
-/// Clusters so small that a mark helps to find them.
-std::vector<Cluster> smallOnes(std::vector<Cluster> clusters, std::uint64_t all) {
-  constexpr double kSmall = 0.002;  // of all voxels
-  std::erase_if(clusters, [&](const Cluster& cluster) {
-    return static_cast<double>(cluster.voxels) > kSmall * static_cast<double>(all);
-  });
-  return clusters;
 }
 
 Picture closeUp(const DifferenceLook& look, const Cluster& cluster, const View& view) {
@@ -141,9 +142,9 @@ Picture closeUp(const DifferenceLook& look, const Cluster& cluster, const View& 
           "Close-up",
           "The largest cluster of differences: " + grouped(cluster.voxels) +
               (cluster.voxels == 1 ? " voxel. " : " voxels. ") + "Shown are voxels " +
-              textOf(shown.min()) + " to " + textOf(shown.max()) + ", at " + shortNumber(world[0]) +
-              ' ' + shortNumber(world[1]) + ' ' + shortNumber(world[2]) + " in world units, " +
-              textOf(view) + '.',
+              textOf(around.min()) + " to " + textOf(around.max()) + ", at " +
+              shortNumber(world[0]) + ' ' + shortNumber(world[1]) + ' ' + shortNumber(world[2]) +
+              " in world units, " + textOf(view) + '.',
           {}};
 }
 
@@ -180,16 +181,25 @@ VisibleGrids voxelsNear(const openvdb::MaskTree& voxels, const Coord& middle,
   return plain(part, toWorld);
 }
 
-/// The active voxel that two transforms put farthest apart, of one at each corner of the grid.
+double apart(const Coord& voxel, const Transform& a, const Transform& b) {
+  return (a.indexToWorld(voxel) - b.indexToWorld(voxel)).length();
+}
+
+/// The active voxel that two linear transforms put farthest apart.
 Coord farthestMoved(const openvdb::MaskTree& voxels, const Transform& a, const Transform& b) {
   Coord farthest;
   double most = -1;
   for (auto value = voxels.cbeginValueOn(); value; ++value) {
-    const Coord voxel = value.getCoord();
-    const double moved = (a.indexToWorld(voxel) - b.indexToWorld(voxel)).length();
-    if (moved > most) {
-      most = moved;
-      farthest = voxel;
+    const CoordBBox box = value.getBoundingBox();
+    for (unsigned corner = 0; corner < 8; ++corner) {  // of a tile; of a voxel all are the same
+      const Coord voxel((corner & 1U) != 0 ? box.max().x() : box.min().x(),
+                        (corner & 2U) != 0 ? box.max().y() : box.min().y(),
+                        (corner & 4U) != 0 ? box.max().z() : box.min().z());
+      const double moved = apart(voxel, a, b);
+      if (moved > most) {
+        most = moved;
+        farthest = voxel;
+      }
     }
   }
   return farthest;
@@ -232,13 +242,15 @@ std::vector<Picture> differencePictures(const GridBase::Ptr& a, const GridBase::
                           {}});
   }
   const std::vector<Cluster> clusters = largestClusters(look.differing(), kMostMarks);
-  const std::vector<Cluster> marked = smallOnes(clusters, look.all().activeVoxelCount());
   const char* const title = "Difference";
   for (const View& view : views) {
     const Camera camera = cameraOf(view, {&all});
-    pictures.push_back({differenceImage(all, differing, camera), title,
-                        "What differs, " + textOf(view) + '.',
-                        placesOf(marked, *all.toWorld, camera)});
+    Picture picture{differenceImage(all, differing, camera), title,
+                    "What differs, " + textOf(view) + '.',
+                    placesOf(clusters, look, *all.toWorld, camera)};
+    if (!picture.marks.empty())
+      picture.description += " Circles mark small clusters, up to the five largest.";
+    pictures.push_back(std::move(picture));
   }
   if (!clusters.empty()) pictures.push_back(closeUp(look, clusters.front(), views[0]));
   return pictures;
@@ -251,24 +263,24 @@ std::vector<Picture> overlayPictures(const GridBase& a, const GridBase& b,
     const Camera camera = cameraOf(view, {&inA, &inB});
     return overlaid(imageOf(inA, camera, shading), imageOf(inB, camera, shading));
   };
-  std::vector<Picture> pictures;
-  pictures.push_back({overlay(visibleA, visibleB, Shading::kNormals),
-                      "In world space",
-                      "Both grids where their transforms put them: A alone red, B alone blue, " +
-                          textOf(view) + '.',
-                      {}});
   const openvdb::MaskTree::Ptr voxels = topologyOf(a);
   const Coord far = farthestMoved(*voxels, a.transform(), b.transform());
+  std::vector<Picture> pictures;
+  pictures.push_back(
+      {overlay(visibleA, visibleB, Shading::kNormals),
+       "In world space",
+       "Both grids where their transforms put them, " + textOf(view) +
+           ". Red: only A covers this place of the picture; blue: only B; grey: both. "
+           "Voxels of one index lie up to " +
+           shortNumber(apart(far, a.transform(), b.transform())) + " world units apart.",
+       {}});
   const openvdb::MaskTree::Ptr voxelsB = topologyOf(b);
   if (!voxelsB->isValueOn(far)) return pictures;
   pictures.push_back(
       {overlay(voxelsNear(*voxels, far, a.transformPtr()),
                voxelsNear(*voxelsB, far, b.transformPtr()), Shading::kFlat),
        "Close-up",
-       "The voxels around " + textOf(far) + ", which lie " +
-           shortNumber(
-               (a.transform().indexToWorld(far) - b.transform().indexToWorld(far)).length()) +
-           " world units apart, farther than any others.",
+       "The voxels around " + textOf(far) + ", which lie farther apart than any others.",
        {}});
   return pictures;
 }
@@ -277,8 +289,11 @@ std::vector<Picture> markedPictures(const VisibleGrids& visible, std::span<const
   std::vector<Picture> pictures;
   constexpr double kElevation = 35.26438968275465;
   for (const View& view : {View{45, kElevation}, View{225, -kElevation}}) {
-    const Camera camera = cameraOf(view, {&visible});
+    VisibleGrids places = visible;  // may lie outside of the voxels
+    for (const Coord& voxel : marked) places.boxes.emplace_back(voxel, voxel);
+    const Camera camera = cameraOf(view, {&places});
     Picture picture{imageOf(visible, camera), "Voxels", "The grid, " + textOf(view) + '.', {}};
+    if (!marked.empty()) picture.description += " Circles mark where something was found first.";
     for (const Coord& voxel : marked)
       picture.marks.push_back(placeOf(voxel, *visible.toWorld, camera));
     pictures.push_back(std::move(picture));

@@ -39,7 +39,7 @@ Histogram histogramOf(const openvdb::FloatTree& values) {
   if (most == 0) return histogram;
   constexpr double kWideRange = 50;
   const bool byRatio = most > kWideRange * least;
-  const double low = byRatio ? std::log(least) : 0;
+  const double low = byRatio ? std::log(least) : least == most ? most : 0;
   const double high = byRatio ? std::log(most) : most;
   for (std::size_t i = 0; i <= kBars; ++i) {
     const double t = low + (high - low) * static_cast<double>(i) / kBars;
@@ -57,7 +57,15 @@ Histogram histogramOf(const openvdb::FloatTree& values) {
 }
 
 std::string histogramFigure(const Histogram& histogram) {
-  if (histogram.counts.empty()) return {};
+  const std::string notFinite =
+      histogram.notFinite == 0 ? "" : " " + grouped(histogram.notFinite) + " are not finite.";
+  if (histogram.counts.empty() && notFinite.empty()) return {};
+  if (histogram.counts.empty() || histogram.bounds.front() == histogram.bounds.back())
+    return "<p>" +
+           (histogram.counts.empty()
+                ? "The differences of values cannot be shown."
+                : "All values differ by " + shortNumber(histogram.bounds.back()) + '.') +
+           notFinite + "</p>\n";
   constexpr int kWidth = 420;
   constexpr int kHeight = 200;
   constexpr int kAxis = 24;
@@ -85,8 +93,7 @@ std::string histogramFigure(const Histogram& histogram) {
   svg << "<text x=\"2\" y=\"" << kHeight + 18 << "\">" << shortNumber(histogram.bounds.front())
       << "</text><text x=\"" << kWidth - 2 << "\" y=\"" << kHeight + 18 << "\" text-anchor=\"end\">"
       << shortNumber(histogram.bounds.back()) << "</text></svg>"
-      << "<figcaption><b>Differences of values</b> " << escaped(description)
-      << (histogram.notFinite > 0 ? " " + grouped(histogram.notFinite) + " are not finite." : "")
+      << "<figcaption><b>Differences of values</b> " << escaped(description) << notFinite
       << "</figcaption></figure>\n";
   return svg.str();
 }

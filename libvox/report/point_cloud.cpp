@@ -120,12 +120,14 @@ std::string viewerOf(const PointCloud& cloud, const openvdb::math::Transform& to
   html
       << "</div>\n<p class=\"fallback\">This browser shows no WebGL, which the turning view needs. "
          "The pictures on this page show the same.</p>\n<p class=\"note\">"
-      << grouped(isDifference ? cloud.differing : cloud.common) << " voxels";
+      << grouped(isDifference ? cloud.differing : cloud.common)
+      << (cloud.differing + cloud.common == 1 ? " voxel" : " voxels");
   if (isDifference) html << " that differ";
   if (cloud.step > 1) html << ", one in " << grouped(cloud.step);
   if (isDifference && cloud.common > 0)
     html << ", and " << grouped(cloud.common) << " of the others";
-  html << ". Drag to turn, turn the wheel to come nearer; or use the arrow keys, + and -.</p>\n"
+  html << ". Drag to turn, turn the wheel to come nearer; or use the arrow keys, + and -. What is "
+          "switched off hides nothing.</p>\n"
        << "<script type=\"application/octet-stream\">" << base64(cloud.bytes)
        << "</script>\n</div>\n";
   return html.str();

@@ -35,3 +35,25 @@ for quantised in --fp8 --fp16 --fpN; do
   "$vox" diff --no-metadata --grids surface --tolerance 0.01 jack.vdb theirs.nvdb
 done
 "$vox" info theirs.nvdb
+
+# Nodes without active voxels, to which NanoVDB gives empty boxes.
+code=0
+/usr/bin/python3 - <<'PY' || code=$?
+import sys
+try:
+    import pyopenvdb
+except ImportError:
+    print("pyopenvdb is not installed: nodes without active voxels are not tried")
+    sys.exit(77)
+grid = pyopenvdb.FloatGrid()
+grid.name = "density"
+grid.fill((0, 0, 0), (20, 20, 20), 1.0)
+voxels = grid.getAccessor()
+for place in ((500, 0, 0), (9000, 0, 0)):  # a lower and an upper node
+    voxels.setValueOff(place, 3.0)
+pyopenvdb.write("off.vdb", grids=[grid])
+PY
+[ $code -ne 77 ] || exit 0
+[ $code -eq 0 ]
+nanovdb_convert -f off.vdb off.nvdb
+"$vox" diff --no-metadata off.vdb off.nvdb

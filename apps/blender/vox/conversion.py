@@ -19,16 +19,18 @@ class Conversion:
     Objects are kept by name: what Python knows of them does not outlive an undo.
     """
 
-    def __init__(self, thing, program, path, target=(), frames=None):
+    def __init__(self, thing, program, path, target=(), frames=None, in_world=False):
         """@param path    of the file to make, with NUMBER in it for frames
         @param target  further options of vox, those for the program that will read the file
         @param frames  a range, or None for the frame that the scene shows
+        @param in_world  the file shall hold the mesh where it is in the world
         """
         self.name = thing.name
         self.path = path
         self.frames = frames
         self.place = None  # of the result in the world, once the mesh is written; None: where it is
         self.warnings = []
+        self._in_world = in_world or frames is not None  # results of frames do not move with the object
         self._program = program
         self._target = target
 
@@ -75,8 +77,7 @@ class Conversion:
         if thing is None:
             raise VoxError(f"{self.name} is gone")
         with mesh_of(thing, thing.vox.use_modifiers) as (mesh, place):
-            # Results of frames do not move with the object, so they are in the world.
-            scale = None if self.frames else export_mesh.uniform_scale(place)
+            scale = None if self._in_world else export_mesh.uniform_scale(place)
             self.place = place if scale else None
             self._options = options(thing.vox, scale or 1)
             export_mesh.write(mesh, None if scale else place, thing.vox, folder, name, self._warn)

@@ -17,7 +17,7 @@ TARGETS = [
 
 
 class ExportVoxels(RunsConversion, ExportHelper, bpy.types.Operator):
-    """Convert the active mesh into a file of voxels, with the settings of its panel Vox"""
+    """Convert the active mesh, where it is in the world, into a file of voxels, with the settings of its panel Vox"""
 
     bl_idname = "export_scene.vox"
     bl_label = "Export Voxels"
@@ -50,7 +50,7 @@ class ExportVoxels(RunsConversion, ExportHelper, bpy.types.Operator):
         if not path.lower().endswith((".vdb", ".nvdb")):
             raise VoxError(f"{path}: the name of the file must end in .vdb or .nvdb")
         target = ["--target", "houdini", "--up", "z"] if self.target == "HOUDINI" else []
-        return Conversion(mesh_object(context), program(context), path, target)
+        return Conversion(mesh_object(context), program(context), path, target, in_world=True)
 
     def end(self, context, conversion):
         pass  # the file is what was asked for

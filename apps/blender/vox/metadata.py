@@ -16,7 +16,7 @@ def metadata_of(path):
         raise VoxError(f"{path}: no such file; check the path")
     with open(path, "rb") as file:
         if file.read(21 + 36)[:4] != b" BDV":
-            raise VoxError(f"{path} is no OpenVDB file; vox convert makes one of a mesh")
+            raise VoxError(f"{path} is no OpenVDB file; vox convert makes one of a mesh or .nvdb file")
 
         def sized():
             return file.read(struct.unpack("<I", file.read(4))[0])

@@ -302,7 +302,12 @@ def read(path):
 
 
 def _input(value):
-    return value._handle if isinstance(value, (Mesh, Scene)) else _arrays.path(value)
+    if isinstance(value, (Mesh, Scene)):
+        return value._handle
+    if not isinstance(value, (str, bytes, os.PathLike)):
+        raise TypeError("expected a vox.Mesh, a vox.Scene or the path of a file, not "
+                        f"{type(value).__name__}")
+    return _arrays.path(value)
 
 
 _known = {command: [name for name, _, _ in _vox.options(command)]
@@ -395,7 +400,8 @@ def diff(a, b, *, overwrite=False, **options):
     a, b: Grids, or paths of .vdb or .nvdb files, or of folders of such files.
     overwrite: True replaces the files of `report` and `junit`.
 
-    Returns a dict: "same" is True if nothing differs; "grids" is a list of dicts.
+    Returns a dict: "same" is True if nothing differs; "grids", for folders "files", is a list of
+    dicts.
     """
     with _file(a) as name_a, _file(b) as name_b:
         found = json.loads(_vox.diff(name_a, name_b, overwrite, _arrays.keywords(options)))
