@@ -271,10 +271,10 @@ TEST_CASE("a picture of half the size has the means of its pixels", "[report]") 
   image.at(0, 0) = {10, 20, 30, 255};
   image.at(1, 0) = {30, 20, 10, 255};
   image.at(2, 0) = {8, 8, 8, 255};  // beside pixels that are not covered
-  const Image half = halved(image);
-  REQUIRE((half.width == 2 && half.height == 1));
-  CHECK(half.at(0, 0) == Pixel{20, 20, 20, 127});
-  CHECK(half.at(1, 0) == Pixel{8, 8, 8, 63});
+  const Image smaller = halved(image);
+  REQUIRE((smaller.width == 2 && smaller.height == 1));
+  CHECK(smaller.at(0, 0) == Pixel{20, 20, 20, 127});
+  CHECK(smaller.at(1, 0) == Pixel{8, 8, 8, 63});
 }
 
 TEST_CASE("planted differences are named in the report", "[report]") {
@@ -363,6 +363,22 @@ TEST_CASE("a report tells of voxels that moved within the tolerance", "[report]"
   CHECK_THAT(report, Contains("800 voxels only in B"));
   CHECK_THAT(report, Contains("Up to 2 are allowed."));
   CHECK_THAT(report, Contains("<figure>"));
+}
+
+TEST_CASE("a report of many files has less than 2 MB", "[report]") {
+  Comparison comparison;
+  comparison.areFolders = true;
+  for (int i = 0; i < 20000; ++i) {
+    FilePairDiff file;
+    file.name = std::to_string(i) + ".vdb";
+    file.inA = file.inB = true;
+    if (i % 2 == 0) file.error = file.name + ": " + std::string(100, 'x');
+    comparison.files.push_back(file);
+  }
+  const std::string report = diffReport(comparison);
+  CHECK(report.size() < 2000000);
+  CHECK_THAT(report, Contains("20,000 files: 10,000 not compared, 10,000 same."));
+  CHECK_THAT(report, Contains("There was no room for the files from here on."));
 }
 
 TEST_CASE("a report is no verdict on files that cannot be read", "[report]") {

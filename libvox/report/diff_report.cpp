@@ -197,12 +197,18 @@ std::string diffReport(const Comparison& comparison) {
   if (!isOne) body.add(indexOf(comparison));
   // Text comes first where there is not room for all.
   std::size_t reserved = kReportStyle.size() + kViewerScript.size();
-  for (const FilePairDiff& file : comparison.files) reserved += tablesOf(file).size();
+  const std::size_t frame = reserved;
+  for (const FilePairDiff& file : comparison.files)
+    if (isOne || isRemarkable(file)) reserved += tablesOf(file).size();
   for (std::size_t i = 0; i < comparison.files.size(); ++i) {
     const FilePairDiff& file = comparison.files[i];
+    if (!isOne && !isRemarkable(file)) continue;
     const std::string tables = tablesOf(file);
     reserved -= tables.size();
-    if (!isOne && !isRemarkable(file)) continue;
+    if (!isOne && !body.hasRoom(tables.size() + frame)) {
+      body.add("<p>There was no room for the files from here on.</p>\n");
+      break;
+    }
     const std::string id = "file-" + std::to_string(i);
     body.add(isOne ? "<h2>Grids</h2>\n"
                    : "<h2 id=\"" + id + "\">" + escaped(file.name) + "</h2>\n");

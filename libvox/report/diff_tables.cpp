@@ -159,13 +159,21 @@ std::string verdictOf(const Comparison& comparison) {
 }
 
 std::string indexOf(const Comparison& comparison) {
+  constexpr std::size_t kMostSame = 1000;  // files that are listed though they are the same
+  constexpr std::size_t kMostBytes = 1000000;
+  const bool onlyRemarkable = comparison.files.size() > kMostSame;
   std::string html =
       "<div class=\"table\"><table><thead><tr><th scope=\"col\">file</th>"
       "<th scope=\"col\">verdict</th><th scope=\"col\">grids that "
       "differ</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < comparison.files.size(); ++i) {
     const FilePairDiff& file = comparison.files[i];
-    const std::string name = escaped(file.name);
+    if (onlyRemarkable && !isRemarkable(file)) continue;
+    if (html.size() > kMostBytes) {
+      html += "<tr><td>and others</td><td></td><td></td></tr>\n";
+      break;
+    }
+    const std::string name = shortened(file.name);
     html += "<tr><td>" +
             (!isRemarkable(file) ? name
                                  : "<a href=\"#file-" + std::to_string(i) + "\">" + name + "</a>") +

@@ -16,7 +16,8 @@ std::string headingOf(const Comparison& comparison);
 /// One sentence: what differs.
 std::string verdictOf(const Comparison& comparison);
 
-/// A table of all files with links to those that differ.
+/// A table of the files with links to those that differ. Of more than 1,000 files it has only those
+/// with something to tell.
 std::string indexOf(const Comparison& comparison);
 
 /// A table of the grids of a file, and what differs in its metadata; or why there is
