@@ -144,6 +144,10 @@ with tempfile.TemporaryDirectory() as folder:
     run("diff", "a.vdb", strange, "--report", "diff.html", code=1)
     run("diff", "a.vdb", "a.vdb", "--report", "same.html", code=0)
     run("check", "a.vdb", "--report", "check.html", code=0)
+    words = ["check", "a.vdb", "--mesh", jack, "--boundary", "free", "--weld", "0.001"]
+    run(*words, "--report", "mesh.html", code=0)
+    with open("mesh.html", encoding="utf-8") as file:
+        assert "<pre>vox " + " ".join(words) + "</pre>" in file.read(), "the command is not whole"
     for page in ("diff.html", "same.html", "check.html"):
         assert os.path.getsize(page) < 2000000, page
         if shutil.which("tidy"):

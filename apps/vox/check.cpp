@@ -201,7 +201,7 @@ void checkLeaks(const openvdb::MaskTree& voxels, Check& check) {
   }
 }
 
-Check checkFile(const CheckArguments& options, const Scene* input = nullptr) {
+Check checkFile(const CheckArguments& options, const Scene* input) {
   const std::vector<std::string> ignored = ignoredCodes(options);
   Check check;
   check.findings = lintVdb(options.file);
@@ -281,25 +281,25 @@ void print(const CheckArguments& options, const Check& check) {
   std::cout << (faultCount(check) == 0 ? "no faults" : counted(faultCount(check), "fault")) << '\n';
 }
 
-/// The words of the command that makes the same check. Options of the surface that were given are
-/// in them only as far as they are texts of their own.
+/// The words of the command that makes the same check.
 std::vector<std::string> commandOf(const CheckArguments& options) {
   std::vector<std::string> words = {"vox", "check", options.file};
-  for (const auto& [option, value] :
-       {std::pair("--mesh", options.mesh), std::pair("--grid", options.grid),
-        std::pair("--until", options.until), std::pair("--ignore", options.ignore)})
+  const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) words.insert(words.end(), {option, value});
+  };
+  add("--mesh", options.mesh);
+  add("--grid", options.grid);
+  add("--boundary", options.smoothing.boundary);
+  add("--interpolate", options.smoothing.interpolate);
+  add("--interpolate-vertices", options.smoothing.vertexFile);
+  add("--crease", options.smoothing.creases.rule);
+  add("--crease-edges", options.smoothing.creases.edgeFile);
+  add("--corner-vertices", options.smoothing.creases.cornerFile);
+  add("--faces", options.smoothing.faces);
+  add("--until", options.until);
+  if (options.weldTolerance) add("--weld", shortestText(*options.weldTolerance));
+  add("--ignore", options.ignore);
   return words;
-}
-
-void requireReport(const CheckArguments& options) {
-  if (options.report.empty()) return;
-  if (lowerExtension(options.report) != ".html")
-    throw UsageError(options.report + ": the file of --report must end in .html");
-  for (const std::string& input : {options.file, options.mesh})
-    if (!input.empty() && isSameFile(options.report, input))
-      throw UsageError(options.report + ": is the input " + input + "; choose another name");
-  requireWritable(options.report, options.force);
 }
 
 void writeReport(const CheckArguments& options, const Check& check) {
@@ -312,22 +312,26 @@ void writeReport(const CheckArguments& options, const Check& check) {
   file.commit();
 }
 
+/// Checks, tells the result, and writes the page: last, since it may be too large for the memory.
 /// @param input  as for checkFile
-Check checkAndReport(const CheckArguments& options, const Scene* input = nullptr) {
-  requireReport(options);
+template <class Tell>
+Check checkAndTell(const CheckArguments& options, const Scene* input, Tell&& tell) {
+  requireOutput(options.report, "--report", ".html", {options.file, options.mesh}, options.force);
   return onThreads(options.run.threads, [&] {
     Check check = checkFile(options, input);
+    tell(check);
     if (!options.report.empty()) writeReport(options, check);
     return check;
   });
 }
 
 int runCheck(const CheckArguments& options) {
-  const Check check = checkAndReport(options);
-  if (options.json)
-    std::cout << textOf(toJson(options, check)) << '\n';
-  else if (!options.quiet)
-    print(options, check);
+  const Check check = checkAndTell(options, nullptr, [&](const Check& found) {
+    if (options.json)
+      std::cout << textOf(toJson(options, found)) << '\n';
+    else if (!options.quiet)
+      print(options, found);
+  });
   return faultCount(check) == 0 ? 0 : kFaulty;
 }
 
@@ -347,7 +351,7 @@ std::string footer() {
 }  // namespace
 
 std::string checkJson(const CheckArguments& options, const Scene* input) {
-  return textOf(toJson(options, checkAndReport(options, input)));
+  return textOf(toJson(options, checkAndTell(options, input, [](const Check&) {})));
 }
 
 void declareCheck(CLI::App& app, CheckArguments& options) {

@@ -208,6 +208,73 @@ int runConvert(const ConvertArguments& options) {
   return 0;
 }
 
+/// The input and the output.
+void addFiles(const Command& command, ConvertArguments& options) {
+  command
+      .add(
+          "INPUT", options.inputs,
+          "Scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb). Several inputs, or a "
+          "pattern such as mesh.####.obj, become a sequence out.####.vdb with one voxel size. Or a "
+          "file of grids (.vdb .nvdb), to be written in the other format or with another "
+          "--compression")
+      .required()
+      .type("");
+  command
+      .add("-o,--output", options.output,
+           "OpenVDB file to write, or NanoVDB file (.nvdb); - for OpenVDB on stdout. Required "
+           "without "
+           "--dry-run")
+      .type("OUT.vdb")
+      .group("Output");
+}
+
+/// Which grids, and of what.
+void addGrids(const Command& command, ConvertArguments& options) {
+  command
+      .add("--grids", options.grids,
+           "Grids to write, with commas: " + allNamesIn(kGridNames) +
+               " (default: the scene's, or density)")
+      .type("LIST")
+      .group("Output");
+  command
+      .add("--texture", options.conversion.texture,
+           "Texture of all objects, in the grid color: " + allTextureNames() +
+               "; with parameters: marble:scale=0.2,seed=3 or image:file=F (default: the scene's "
+               "textures, "
+               "or the images and colours of the meshes)")
+      .type("KIND[:KEY=VALUE,...]")
+      .group("Output");
+  command
+      .add("--part", options.part,
+           "Make only the I-th of N parts of the grids, for other processes or machines to make "
+           "the others: all with the same input and options. vox merge puts the files together. "
+           "(These are not the parts of --part-by)")
+      .type("I/N")
+      .group("Output");
+  addPartOptions(command, options.parts);
+  addVolumeOptions(command, options.volume);
+  addFileOptions(command, options.volume);
+}
+
+/// What is told of the run, besides the grids.
+void addReports(const Command& command, ConvertArguments& options) {
+  command
+      .add("--report", options.report,
+           "Write times, counts and memory of each stage and object to a file, as JSON")
+      .type("FILE.json")
+      .group("Output");
+  command
+      .addFlag("--verify", options.verify,
+               "Check the voxels against the surface, as vox check --mesh does, before the file "
+               "is written; exit code 1 if they fail")
+      .group("Output");
+  command
+      .addFlag("--dry-run", options.dryRun,
+               "Print an estimate of voxels, memory, levels and file size, within a factor of "
+               "about 1.5, and write nothing")
+      .group("Run");
+}
+
 }  // namespace
 
 ConvertOptions parseConvert(const ConvertArguments& options) {
@@ -241,69 +308,11 @@ Conversion convertScene(const Scene& scene, const Request& request, bool verifie
 void declareConvert(CLI::App& app, ConvertArguments& options) {
   const Command command(app, "convert",
                         "Convert a mesh or scene into a smooth voxel model (.vdb, .nvdb)");
-  command
-      .add(
-          "INPUT", options.inputs,
-          "Scene (.toml) or mesh (.obj .ply .off .stl .om .gltf .glb). Several inputs, or a "
-          "pattern such as mesh.####.obj, become a sequence out.####.vdb with one voxel size. Or a "
-          "file of grids (.vdb .nvdb), to be written in the other format or with another "
-          "--compression")
-      .required()
-      .type("");
-  command
-      .add("-o,--output", options.output,
-           "OpenVDB file to write, or NanoVDB file (.nvdb); - for OpenVDB on stdout. Required "
-           "without "
-           "--dry-run")
-      .type("OUT.vdb")
-      .group("Output");
-  addResolutionOptions(command, options.conversion.resolution);
-  addScaleOption(command, options.conversion.scale);
-  addSmoothingOptions(command, options.conversion.smoothing);
-  addVoxelizationOptions(command, options.conversion.voxelization);
-  addWeldOption(command, options.conversion.weldTolerance);
-  addDropOption(command, options.conversion.dropComponents);
-  addStrictOption(command, options.conversion.strict);
-  command
-      .add("--grids", options.grids,
-           "Grids to write, with commas: " + allNamesIn(kGridNames) +
-               " (default: the scene's, or density)")
-      .type("LIST")
-      .group("Output");
-  command
-      .add("--texture", options.conversion.texture,
-           "Texture of all objects, in the grid color: " + allTextureNames() +
-               "; with parameters: marble:scale=0.2,seed=3 or image:file=F (default: the scene's "
-               "textures, "
-               "or the images and colours of the meshes)")
-      .type("KIND[:KEY=VALUE,...]")
-      .group("Output");
-  command
-      .add("--part", options.part,
-           "Make only the I-th of N parts of the grids, for other processes or machines to make "
-           "the others: all with the same input and options. vox merge puts the files together. "
-           "(These are not the parts of --part-by)")
-      .type("I/N")
-      .group("Output");
-  addPartOptions(command, options.parts);
-  addVolumeOptions(command, options.volume);
-  addFileOptions(command, options.volume);
+  addFiles(command, options);
+  addConversionOptions(command, options.conversion);
+  addGrids(command, options);
   addSubmeshOptions(command, options.conversion.submeshes);
-  command
-      .add("--report", options.report,
-           "Write times, counts and memory of each stage and object to a file, as JSON")
-      .type("FILE.json")
-      .group("Output");
-  command
-      .addFlag("--verify", options.verify,
-               "Check the voxels against the surface, as vox check --mesh does, before the file "
-               "is written; exit code 1 if they fail")
-      .group("Output");
-  command
-      .addFlag("--dry-run", options.dryRun,
-               "Print an estimate of voxels, memory, levels and file size, within a factor of "
-               "about 1.5, and write nothing")
-      .group("Run");
+  addReports(command, options);
   for (const Option& option : command.options())
     if (option.name() != "INPUT" && option.name() != "--output" && option.name() != "--compression")
       options.meshOptions.push_back(option);

@@ -14,8 +14,6 @@
 #include "libvox/report/diff_report.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -48,38 +46,21 @@ bool areFolders(const DiffArguments& options) {
                    " is; name two files or two folders");
 }
 
-/// Checks the name of a file to write.
-void requireOutputName(const DiffArguments& options, const std::string& output) {
-  if (output.empty()) return;
-  for (const std::string& input : {options.a, options.b})
-    if (isSameFile(output, input))
-      throw UsageError(output + ": is the input " + input + "; choose another name");
-  requireWritable(output, options.force);
-}
-
-void requireNames(const DiffArguments& options, bool folders) {
+void requireOutputs(const DiffArguments& options, bool folders) {
   if (!options.output.empty() && folders) throw UsageError("--output needs two files, not folders");
-  if (!options.output.empty() && lowerExtension(options.output) != ".vdb")
-    throw UsageError(options.output + ": the file of --output must end in .vdb");
-  if (!options.junit.empty() && lowerExtension(options.junit) != ".xml")
-    throw UsageError(options.junit + ": the file of --junit must end in .xml");
-  if (!options.report.empty() && lowerExtension(options.report) != ".html")
-    throw UsageError(options.report + ": the file of --report must end in .html");
-  requireOutputName(options, options.output);
-  requireOutputName(options, options.junit);
-  requireOutputName(options, options.report);
-}
-
-std::string numberText(double number) {
-  std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+  const auto require = [&](const std::string& output, const char* option, const char* extension) {
+    requireOutput(output, option, extension, {options.a, options.b}, options.force);
+  };
+  require(options.output, "--output", ".vdb");
+  require(options.junit, "--junit", ".xml");
+  require(options.report, "--report", ".html");
 }
 
 /// The words of the command that makes the same comparison.
 std::vector<std::string> commandOf(const DiffArguments& options) {
   std::vector<std::string> words = {"vox", "diff", options.a, options.b};
   const auto add = [&](const char* option, double tolerance) {
-    if (tolerance != 0) words.insert(words.end(), {option, numberText(tolerance)});
+    if (tolerance != 0) words.insert(words.end(), {option, shortestText(tolerance)});
   };
   add("--tolerance", options.diff.absoluteTolerance);
   add("--relative", options.diff.relativeTolerance);
@@ -153,7 +134,7 @@ bool compare(DiffArguments options, Tell&& tellResult) {
   std::istringstream names(options.grids);
   for (std::string name; std::getline(names, name, ',');) options.diff.onlyGrids.push_back(name);
   const bool folders = areFolders(options);
-  requireNames(options, folders);
+  requireOutputs(options, folders);
   if (folders) return compareFolders(options, tellResult);
   try {
     return compareFiles(options, tellResult);

@@ -4,6 +4,7 @@
 
 #include "libvox/core/error.h"
 #include "libvox/io/atomic_file.h"
+#include "libvox/io/input_file.h"
 #include "libvox/io/read_indices.h"
 #include "libvox/io/read_lattice.h"
 #include "libvox/options/voxelize.h"
@@ -514,6 +515,16 @@ void applyResolution(const ResolutionOptions& resolution, ConvertOptions& parsed
 
 }  // namespace
 
+void addConversionOptions(const Command& command, ConversionArguments& arguments) {
+  addResolutionOptions(command, arguments.resolution);
+  addScaleOption(command, arguments.scale);
+  addSmoothingOptions(command, arguments.smoothing);
+  addVoxelizationOptions(command, arguments.voxelization);
+  addWeldOption(command, arguments.weldTolerance);
+  addDropOption(command, arguments.dropComponents);
+  addStrictOption(command, arguments.strict);
+}
+
 ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOptions& run) {
   ConvertOptions parsed;
   parsed.scale = arguments.scale;
@@ -565,6 +576,23 @@ void requireOutput(const std::string& output, const CommonOptions& common, const
     if (std::filesystem::equivalent(output, input, error))
       throw UsageError(output + ": is the input " + input.string() + "; choose another name");
   requireWritable(output, common.force);
+}
+
+void requireOutput(const std::string& output, const std::string& option,
+                   const std::string& extension, const std::vector<std::string>& inputs,
+                   bool overwrite) {
+  if (output.empty()) return;
+  if (lowerExtension(output) != extension)
+    throw UsageError(output + ": the file of " + option + " must end in " + extension);
+  for (const std::string& input : inputs)
+    if (!input.empty() && isSameFile(output, input))
+      throw UsageError(output + ": is the input " + input + "; choose another name");
+  requireWritable(output, overwrite);
+}
+
+std::string shortestText(double number) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
 void say(const CommonOptions& common, const std::string& text) {

@@ -144,6 +144,8 @@ struct ConversionArguments {
   SubmeshArguments submeshes;
   std::string texture;
 };
+/// All but --localize, --submesh-faces and --texture.
+void addConversionOptions(const Command& command, ConversionArguments& arguments);
 /// Their values; reads the file of vertices.
 /// @throws UsageError, InputError
 ConvertOptions parseConversion(const ConversionArguments& arguments, const RunOptions& run);
@@ -171,6 +173,18 @@ bool isSameFile(const std::string& a, const std::string& b);
 /// Checks, before the work starts, that the output can be written and is none of the inputs.
 /// @throws IoError, UsageError
 void requireOutput(const std::string& output, const CommonOptions& common, const Scene& scene);
+
+/// Checks, before the work starts, that the file of an option can be written and is none of the
+/// inputs. Nothing is checked if it is not given.
+/// @param option     "--report"
+/// @param extension  that its name must have, ".html"
+/// @throws IoError, UsageError
+void requireOutput(const std::string& output, const std::string& option,
+                   const std::string& extension, const std::vector<std::string>& inputs,
+                   bool overwrite);
+
+/// The fewest digits that are this number when they are read.
+std::string shortestText(double number);
 
 /// Prints one line on stderr, unless --quiet: "vox: TEXT".
 void say(const CommonOptions& common, const std::string& text);

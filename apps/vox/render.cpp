@@ -201,13 +201,7 @@ void addGridOptions(const Command& command, RenderArguments& options) {
 
 void addMeshOptions(const Command& command, RenderArguments& options) {
   const std::size_t before = command.options().size();
-  addResolutionOptions(command, options.conversion.resolution);
-  addScaleOption(command, options.conversion.scale);
-  addSmoothingOptions(command, options.conversion.smoothing);
-  addVoxelizationOptions(command, options.conversion.voxelization);
-  addWeldOption(command, options.conversion.weldTolerance);
-  addDropOption(command, options.conversion.dropComponents);
-  addStrictOption(command, options.conversion.strict);
+  addConversionOptions(command, options.conversion);
   addSubmeshOptions(command, options.conversion.submeshes);
   command
       .add("--texture", options.conversion.texture,
