@@ -35,30 +35,12 @@ struct Sheet {
   }
 };
 
-/// Corners of all boxes of voxels, in world space.
-template <class Visit>
-void forCorners(const VisibleGrids& visible, Visit&& visit) {
-  for (const auto& box : visible.boxes) {
-    const openvdb::Vec3d low = box.min().asVec3d() - openvdb::Vec3d(0.5);
-    const openvdb::Vec3d high = box.max().asVec3d() + openvdb::Vec3d(0.5);
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      const openvdb::Vec3d at((corner & 1U) != 0 ? high[0] : low[0],
-                              (corner & 2U) != 0 ? high[1] : low[1],
-                              (corner & 4U) != 0 ? high[2] : low[2]);
-      const openvdb::Vec3d world = visible.toWorld->indexToWorld(at);
-      visit(Vec3d(world[0], world[1], world[2]));
-    }
-  }
-}
-
 std::vector<Camera> camerasOf(const VisibleGrids& visible, const RenderOptions& options) {
   const double aspect = static_cast<double>(options.width) / options.height;
   std::vector<Framing> framings;
   for (const View& view : options.views)
     framings.emplace_back(view, options.up, options.projection, aspect);
-  parallelForEach(framings.size(), 1, [&](std::size_t i) {
-    forCorners(visible, [&](const Vec3d& corner) { framings[i].add(corner); });
-  });
+  parallelForEach(framings.size(), 1, [&](std::size_t i) { addBoxes(visible, framings[i]); });
   double halfHeight = 0;
   for (const Framing& framing : framings) halfHeight = std::max(halfHeight, framing.halfHeight());
   std::vector<Camera> cameras;
@@ -153,6 +135,20 @@ Image paintViews(const VisibleGrids& visible, std::span<const Camera> cameras,
 }
 
 }  // namespace
+
+void addBoxes(const VisibleGrids& visible, Framing& framing) {
+  for (const auto& box : visible.boxes) {
+    const openvdb::Vec3d low = box.min().asVec3d() - openvdb::Vec3d(0.5);
+    const openvdb::Vec3d high = box.max().asVec3d() + openvdb::Vec3d(0.5);
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const openvdb::Vec3d at((corner & 1U) != 0 ? high[0] : low[0],
+                              (corner & 2U) != 0 ? high[1] : low[1],
+                              (corner & 4U) != 0 ? high[2] : low[2]);
+      const openvdb::Vec3d world = visible.toWorld->indexToWorld(at);
+      framing.add(Vec3d(world[0], world[1], world[2]));
+    }
+  }
+}
 
 void requireRenderable(const RenderOptions& options) {
   const auto require = [](const char* what, std::int64_t value, std::int64_t least,

@@ -34,6 +34,9 @@ inline constexpr int kMostPixelsAcross = 16384;  ///< of a picture
 inline constexpr int kMostSamples = 16;
 inline constexpr int kMostOcclusionRays = 256;
 
+/// Makes a camera show the boxes of all voxels.
+void addBoxes(const VisibleGrids& visible, Framing& framing);
+
 /// Checks the options before the work starts.
 /// @throws UsageError  an option is out of range
 void requireRenderable(const RenderOptions& options);

@@ -7,28 +7,24 @@
 #include "libvox/report/sample_voxels.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace vox {
 namespace {
 
-constexpr double kCornerElevation = 35.26438968275465;
 /// From above and below the corners of a cube, which show three sides, then from the sides.
-constexpr std::array<View, 14> kCandidates = {{{45, kCornerElevation},
-                                               {315, kCornerElevation},
-                                               {135, kCornerElevation},
-                                               {225, kCornerElevation},
-                                               {45, -kCornerElevation},
-                                               {315, -kCornerElevation},
-                                               {135, -kCornerElevation},
-                                               {225, -kCornerElevation},
-                                               {0, 0},
-                                               {90, 0},
-                                               {180, 0},
-                                               {270, 0},
-                                               {0, 90},
-                                               {0, -90}}};
+std::vector<View> candidates() {
+  const View corner = *viewNamed("iso");
+  constexpr double kQuarter = 90;
+  std::vector<View> views;
+  for (const double elevation : {corner.elevation, -corner.elevation})
+    for (const int quarter : {0, 3, 1, 2})
+      views.push_back({std::fmod(corner.azimuth + kQuarter * quarter, 4 * kQuarter), elevation});
+  for (const char* side : {"front", "right", "back", "left", "top", "bottom"})
+    views.push_back(*viewNamed(side));
+  return views;
+}
 
 /// Which of the voxels can be seen from outside.
 std::vector<bool> seenFrom(const View& view, UpAxis up, const std::vector<openvdb::Coord>& voxels,
@@ -54,23 +50,24 @@ std::vector<View> bestViews(const openvdb::MaskTree& wanted, const openvdb::Mask
   constexpr std::uint64_t kSample = 2000;
   const std::vector<openvdb::Coord> voxels = sampleVoxels(wanted, kSample);
   const auto surface = voxelCaster(all);
-  std::array<std::vector<bool>, kCandidates.size()> seen;
-  parallelForEach(kCandidates.size(), 1, [&](std::size_t i) {
-    seen[i] = seenFrom(kCandidates[i], up, voxels, *surface->copy(), *toWorld.baseMap());
+  const std::vector<View> views = candidates();
+  std::vector<std::vector<bool>> seen(views.size());
+  parallelForEach(views.size(), 1, [&](std::size_t i) {
+    seen[i] = seenFrom(views[i], up, voxels, *surface->copy(), *toWorld.baseMap());
   });
   const auto score = [&](std::size_t i) {
     return std::count(seen[i].begin(), seen[i].end(), true);
   };
   std::size_t best = 0;
-  for (std::size_t i = 1; i < kCandidates.size(); ++i)
+  for (std::size_t i = 1; i < views.size(); ++i)
     if (score(i) > score(best)) best = i;
 
   constexpr double kOtherSide = 0.5;  // cosine of 60 degrees
-  const Vec3d first = axesOf(kCandidates[best], up).forward;
+  const Vec3d first = axesOf(views[best], up).forward;
   std::size_t second = best;
   std::ptrdiff_t most = -1;
-  for (std::size_t i = 0; i < kCandidates.size(); ++i) {
-    if (axesOf(kCandidates[i], up).forward.dot(first) > kOtherSide) continue;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (axesOf(views[i], up).forward.dot(first) > kOtherSide) continue;
     std::ptrdiff_t added = 0;
     for (std::size_t k = 0; k < voxels.size(); ++k) added += seen[i][k] && !seen[best][k] ? 1 : 0;
     if (added > most) {
@@ -78,7 +75,7 @@ std::vector<View> bestViews(const openvdb::MaskTree& wanted, const openvdb::Mask
       second = i;
     }
   }
-  return {kCandidates[best], kCandidates[second]};
+  return {views[best], views[second]};
 }
 
 }  // namespace vox

@@ -20,10 +20,6 @@ std::uint64_t faultsOf(const CheckedFile& checked) {
                     [](const LintFinding& finding) { return finding.isFault; }));
 }
 
-std::string counted(std::uint64_t number, const std::string& noun) {
-  return grouped(number) + ' ' + noun + (number == 1 ? "" : "s");
-}
-
 std::string findingsTable(const CheckedFile& checked) {
   if (checked.findings.empty()) return {};
   std::string html =
@@ -74,14 +70,14 @@ std::string picturesOf(const CheckedFile& checked) {
 
 std::string checkReport(const CheckedFile& checked) {
   const std::uint64_t faults = faultsOf(checked);
-  const std::string verdict = faults == 0 ? "No faults" : counted(faults, "fault");
+  const std::string verdict = faults == 0 ? "No faults" : countOf(faults, "fault");
   std::string body = std::string("<h1 class=\"") + (faults == 0 ? "good" : "bad") + "\">" +
                      verdict + "</h1>\n<p><code>" + escaped(checked.file) +
                      "</code></p>\n<p>The command that checks it:</p>\n<pre>" +
                      escaped(shellLine(checked.command)) + "</pre>\n" + findingsTable(checked);
   if (checked.grid) {
     body += "<h2>Grid " + escaped(checked.grid->getName()) + "</h2>\n<p>" +
-            counted(checked.grid->activeVoxelCount(), "active voxel") + ".</p>\n";
+            countOf(checked.grid->activeVoxelCount(), "active voxel") + ".</p>\n";
     for (const std::string& note : checked.notes) body += "<p>" + escaped(note) + "</p>\n";
     body += picturesOf(checked) + componentTable(checked.components, "Components") +
             componentTable(checked.enclosed, "Enclosed spaces");

@@ -48,8 +48,12 @@ class Body {
     return true;
   }
 
-  std::string html_;
+  const std::string& html() const { return html_; }
+
   int viewers = 0;
+
+ private:
+  std::string html_;
 };
 
 std::string legendOf(const DifferenceLook& look) {
@@ -118,11 +122,12 @@ void addDifference(const GridBase::Ptr& a, const GridBase::Ptr& b, const DiffOpt
   constexpr std::array<std::uint64_t, 3> kMostPoints = {200000, 100000, 50000};
   for (const std::uint64_t most : kMostPoints) {
     std::string html = legend + figures(pictures, histogram);
-    if (body.viewers < kMostViewers)
+    const bool hasViewer = body.viewers < kMostViewers;
+    if (hasViewer)
       html += "<h3 class=\"viewer-title\">Turn it</h3>\n" +
               viewerOf(pointsOf(*shown.look, most), a->transform(), views[0], "viewer-" + id);
     if (body.addIfItFits(html, reserved)) {
-      ++body.viewers;
+      if (hasViewer) ++body.viewers;
       return;
     }
     for (Picture& picture : pictures) picture.image = halved(picture.image);
@@ -215,7 +220,7 @@ std::string diffReport(const Comparison& comparison) {
     body.add(tables);
     if (file.inA && file.inB && file.error.empty()) addFile(comparison, file, id, reserved, body);
   }
-  return page(headingOf(comparison) + ": " + comparison.a + " and " + comparison.b, body.html_);
+  return page(headingOf(comparison) + ": " + comparison.a + " and " + comparison.b, body.html());
 }
 
 }  // namespace vox

@@ -12,10 +12,6 @@
 namespace vox {
 namespace {
 
-std::string plural(std::uint64_t number, const std::string& noun) {
-  return grouped(number) + ' ' + noun + (number == 1 ? "" : "s");
-}
-
 std::string at(const std::optional<VoxelIndex>& voxel) {
   if (!voxel) return {};
   const auto& [x, y, z] = *voxel;
@@ -82,8 +78,8 @@ std::string topologyText(const TopologyDiff& topology) {
                                 : " The other grid has no voxels.";
   const std::string allowed =
       topology.same() ? " Up to " + shortNumber(topology.allowed) + " are allowed." : "";
-  return "<p>Topology: " + plural(topology.onlyA, "voxel") + " only in A, " +
-         plural(topology.onlyB, "voxel") + " only in B." + apart + allowed + at(topology.first) +
+  return "<p>Topology: " + countOf(topology.onlyA, "voxel") + " only in A, " +
+         countOf(topology.onlyB, "voxel") + " only in B." + apart + allowed + at(topology.first) +
          "</p>\n";
 }
 
@@ -94,7 +90,7 @@ std::string valueText(const ValueDiff& values) {
             " differ, by up to " + shortNumber(values.largest) + ", root mean square " +
             shortNumber(values.rms) + '.' + at(values.first) + "</p>\n";
   if (values.inactiveDiffering > 0)
-    html += "<p>Values: " + plural(values.inactiveDiffering, "inactive voxel") + " differ.</p>\n";
+    html += "<p>Values: " + countOf(values.inactiveDiffering, "inactive voxel") + " differ.</p>\n";
   return html;
 }
 
@@ -110,7 +106,7 @@ const char* stateOf(const FilePairDiff& file) {
 std::string countsOf(const Comparison& comparison) {
   std::map<std::string, std::uint64_t> counts;
   for (const FilePairDiff& file : comparison.files) ++counts[stateOf(file)];
-  std::string text = plural(comparison.files.size(), "file") + ":";
+  std::string text = countOf(comparison.files.size(), "file") + ":";
   const char* separator = " ";
   for (const auto& [state, count] : counts) {
     text += separator + grouped(count) + ' ' + state;
@@ -148,10 +144,10 @@ std::string verdictOf(const Comparison& comparison) {
   const FileDiff& diff = comparison.files.front().diff;
   const std::uint64_t differing = differingGrids(diff);
   if (diff.same())
-    return plural(diff.grids.size(), "grid") + (isRemarkable(comparison.files.front())
-                                                    ? " compared; voxels moved, but not too far."
-                                                    : " compared.");
-  std::string text = grouped(differing) + " of " + plural(diff.grids.size(), "grid") +
+    return countOf(diff.grids.size(), "grid") + (isRemarkable(comparison.files.front())
+                                                     ? " compared; voxels moved, but not too far."
+                                                     : " compared.");
+  std::string text = grouped(differing) + " of " + countOf(diff.grids.size(), "grid") +
                      (differing == 1 ? " differs" : " differ");
   if (!diff.metadata.empty())
     text += differing > 0 ? ", and the metadata of the file" : ", but the metadata of the file";

@@ -113,10 +113,10 @@ std::optional<openvdb::Vec3f> DifferenceLook::colorAt(const Coord& voxel) const 
   }
 }
 
-VisibleGrids DifferenceLook::visible(const MaskTree& voxels, const CoordBBox& box) const {
+VisibleGrids DifferenceLook::visible(const MaskTree::Ptr& voxels, const CoordBBox& box) const {
   VisibleGrids visible;
   visible.toWorld = difference_.onlyA->transformPtr();
-  visible.voxels = box.empty() ? std::make_shared<MaskTree>(voxels) : cut(voxels, box);
+  visible.voxels = box.empty() ? voxels : cut(*voxels, box);
   visible.boxes = boxesOf(*visible.voxels);
   visible.colorAt = [this](const Coord& voxel) { return colorAt(voxel); };
   return visible;

@@ -37,12 +37,15 @@ class DifferenceLook {
   /// True if voxels that differ are not shown: those of a level set that are far from its surface.
   bool isPartial() const { return isPartial_; }
 
-  /// For pictures: the voxels of a tree in their colours. They need this object as long as they are
-  /// used.
+  /// For pictures: the voxels in their colours. They need this object as long as they are used.
   /// @param box  those within it only; empty: all
-  VisibleGrids visible(const openvdb::MaskTree& voxels, const openvdb::CoordBBox& box) const;
+  VisibleGrids visibleAll(const openvdb::CoordBBox& box) const { return visible(all_, box); }
+  VisibleGrids visibleDiffering(const openvdb::CoordBBox& box) const {
+    return visible(differing_, box);
+  }
 
  private:
+  VisibleGrids visible(const openvdb::MaskTree::Ptr& voxels, const openvdb::CoordBBox& box) const;
   std::optional<openvdb::Vec3f> colorAt(const openvdb::Coord& voxel) const;
 
   DifferenceGrids difference_;

@@ -36,26 +36,10 @@ RenderOptions pictureOptions() {
   return options;
 }
 
-std::array<Vec3d, 8> cornersOf(const CoordBBox& box, const Transform& toWorld) {
-  std::array<Vec3d, 8> corners;
-  for (unsigned corner = 0; corner < corners.size(); ++corner) {
-    openvdb::Vec3d at;
-    for (unsigned axis = 0; axis < 3; ++axis)
-      at[static_cast<int>(axis)] = (corner >> axis & 1U) != 0
-                                       ? box.max()[static_cast<int>(axis)] + 0.5
-                                       : box.min()[static_cast<int>(axis)] - 0.5;
-    const openvdb::Vec3d world = toWorld.indexToWorld(at);
-    corners[corner] = Vec3d(world[0], world[1], world[2]);
-  }
-  return corners;
-}
-
 /// A camera that shows boxes of several grids.
 Camera cameraOf(const View& view, std::initializer_list<const VisibleGrids*> shown) {
   Framing framing(view, kReportUp, Projection::kOrthographic, 1);
-  for (const VisibleGrids* visible : shown)
-    for (const CoordBBox& box : visible->boxes)
-      for (const Vec3d& corner : cornersOf(box, *visible->toWorld)) framing.add(corner);
+  for (const VisibleGrids* visible : shown) addBoxes(*visible, framing);
   return framing.camera();
 }
 
@@ -135,8 +119,8 @@ Picture closeUp(const DifferenceLook& look, const Cluster& cluster, const View& 
   const CoordBBox shown = closeUpBox(look.differing(), cluster.first, kCloseUpSide);
   CoordBBox around = shown;
   around.expand(kCloseUpMargin);
-  const VisibleGrids all = look.visible(look.all(), around);
-  const VisibleGrids differing = look.visible(look.differing(), around);
+  const VisibleGrids all = look.visibleAll(around);
+  const VisibleGrids differing = look.visibleDiffering(around);
   const openvdb::Vec3d world = all.toWorld->indexToWorld(shown.getCenter());
   return {differenceImage(all, differing, cameraOf(view, {&all}), Shading::kFlat),
           "Close-up",
@@ -230,8 +214,8 @@ Picture pictureOf(const VisibleGrids& visible, const std::string& name) {
 std::vector<Picture> differencePictures(const GridBase::Ptr& a, const GridBase::Ptr& b,
                                         const DifferenceLook& look, std::span<const View> views) {
   std::vector<Picture> pictures;
-  const VisibleGrids all = look.visible(look.all(), {});
-  const VisibleGrids differing = look.visible(look.differing(), {});
+  const VisibleGrids all = look.visibleAll({});
+  const VisibleGrids differing = look.visibleDiffering({});
   const Camera first = cameraOf(views[0], {&all});
   for (const auto& [grid, name] : {std::pair(a, "A"), std::pair(b, "B")}) {
     const auto visible = lookOf(grid);
@@ -287,8 +271,8 @@ std::vector<Picture> overlayPictures(const GridBase& a, const GridBase& b,
 
 std::vector<Picture> markedPictures(const VisibleGrids& visible, std::span<const Coord> marked) {
   std::vector<Picture> pictures;
-  constexpr double kElevation = 35.26438968275465;
-  for (const View& view : {View{45, kElevation}, View{225, -kElevation}}) {
+  const View above = *viewNamed("iso");
+  for (const View& view : {above, View{above.azimuth + 180, -above.elevation}}) {
     VisibleGrids places = visible;  // may lie outside of the voxels
     for (const Coord& voxel : marked) places.boxes.emplace_back(voxel, voxel);
     const Camera camera = cameraOf(view, {&places});

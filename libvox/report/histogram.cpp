@@ -58,7 +58,7 @@ Histogram histogramOf(const openvdb::FloatTree& values) {
 
 std::string histogramFigure(const Histogram& histogram) {
   const std::string notFinite =
-      histogram.notFinite == 0 ? "" : " " + grouped(histogram.notFinite) + " are not finite.";
+      histogram.notFinite == 0 ? "" : " Not finite: " + grouped(histogram.notFinite) + '.';
   if (histogram.counts.empty() && notFinite.empty()) return {};
   if (histogram.counts.empty() || histogram.bounds.front() == histogram.bounds.back())
     return "<p>" +

@@ -32,6 +32,10 @@ std::string grouped(std::uint64_t number) {
   return text;
 }
 
+std::string countOf(std::uint64_t number, const std::string& noun) {
+  return grouped(number) + ' ' + noun + (number == 1 ? "" : "s");
+}
+
 std::string shortNumber(double number) {
   std::ostringstream text;
   text << number;

@@ -13,6 +13,8 @@ std::string base64(std::string_view bytes);
 
 /// A number as people read it: 12,345,678.
 std::string grouped(std::uint64_t number);
+/// "1 voxel", "2,000 voxels".
+std::string countOf(std::uint64_t number, const std::string& noun);
 /// A number in at most six digits.
 std::string shortNumber(double number);
 
