@@ -75,19 +75,19 @@ class Types(unittest.TestCase):
                 self.assertIn(f"use.py:{number}: error", done.stdout, line)
 
     def test_hints_name_the_options_of_the_program(self):
-        stub = ast.parse(pathlib.Path(vox.__file__).with_suffix(".pyi").read_text())
-        hinted = {node.name: node.args for node in stub.body if isinstance(node, ast.FunctionDef)}
+        hints = ast.parse(pathlib.Path(vox.__file__).with_suffix(".pyi").read_text())
+        hinted = {node.name: node.args for node in hints.body if isinstance(node, ast.FunctionDef)}
         for name in ("convert", "subdivide", "render", "info", "diff", "check"):
             names = [one.arg for one in hinted[name].args + hinted[name].kwonlyargs]
             self.assertEqual(sorted(names),
                              sorted(inspect.signature(getattr(vox, name)).parameters), name)
 
     def test_hints_name_what_the_package_has(self):
-        stub = ast.parse(pathlib.Path(vox.__file__).with_suffix(".pyi").read_text())
-        names = {node.name for node in stub.body
+        hints = ast.parse(pathlib.Path(vox.__file__).with_suffix(".pyi").read_text())
+        names = {node.name for node in hints.body
                  if isinstance(node, (ast.FunctionDef, ast.ClassDef))} | {"__version__"}
         self.assertEqual(names, set(vox.__all__))
-        for node in stub.body:
+        for node in hints.body:
             if not isinstance(node, ast.ClassDef):
                 continue
             for member in node.body:

@@ -32,7 +32,7 @@ def save(image, folder):
 
 def _file_of(image):
     """The file of an image, if vox reads in it what Blender shows; else None."""
-    path = bpy.path.abspath(image.filepath, library=image.library)
+    path = image.filepath_from_user()
     is_same = image.source == "FILE" and not image.is_dirty and not image.packed_file
     is_read = image.file_format in ENDINGS and image.colorspace_settings.name == "sRGB"
     return path if is_same and is_read and os.path.isfile(path) else None

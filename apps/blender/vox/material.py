@@ -94,16 +94,13 @@ def _make_nodes(tree, grids, densities, is_soft):
         return made
 
     def vector_math(operation, place, a, b):
-        made = node("ShaderNodeVectorMath", place, operation=operation)
-        for socket, value in zip(made.inputs, (a, b)):
-            if isinstance(value, bpy.types.NodeSocket):
-                links.new(value, socket)
-            else:
-                socket.default_value = value
-        return made
+        return calculation("ShaderNodeVectorMath", operation, place, a, b)
 
     def math(operation, place, a, b=0.0):
-        made = node("ShaderNodeMath", place, operation=operation)
+        return calculation("ShaderNodeMath", operation, place, a, b)
+
+    def calculation(kind, operation, place, a, b):
+        made = node(kind, place, operation=operation)
         for socket, value in zip(made.inputs, (a, b)):
             if isinstance(value, bpy.types.NodeSocket):
                 links.new(value, socket)
