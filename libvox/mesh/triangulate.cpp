@@ -31,13 +31,73 @@ struct Shape {
 };
 
 Shape shapeOf(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-  std::array<double, 3> sides = {(b - a).norm(), (c - b).norm(), (a - c).norm()};
-  const double diagonal = sides[2];
-  std::sort(sides.begin(), sides.end());
-  const double longer = sides[1] * sides[2];
+  const double ab = (b - a).norm();
+  const double bc = (c - b).norm();
+  const double diagonal = (a - c).norm();
+  const double middle = std::max(std::min(ab, bc), std::min(std::max(ab, bc), diagonal));
+  const double longer = middle * std::max(std::max(ab, bc), diagonal);
   const double sine = longer > 0 ? (b - a).cross(c - a).norm() / longer : 0;
   return {static_cast<int>(256 * sine), diagonal};
 }
+
+/// Whether a polygon is strictly convex, so that all its corners are ears, and stay ears while
+/// others are cut off. (A closed walk that only turns left winds once around if it has one lowest
+/// point.)
+bool isConvex(std::span<const FlatPoint> flat) {
+  const std::size_t n = flat.size();
+  int lowest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const FlatPoint& before = flat[i == 0 ? n - 1 : i - 1];
+    const FlatPoint& after = flat[i + 1 == n ? 0 : i + 1];
+    if (turn(before, flat[i], after) <= 0) return false;
+    lowest += flat[i] < before && flat[i] < after;
+  }
+  return lowest == 1;
+}
+
+/// The ear clipping of a small convex polygon: the ears in the order of EarClipper, found without
+/// its tables.
+class ConvexClipper {
+ public:
+  static constexpr std::size_t kMostCorners = 8;
+
+  explicit ConvexClipper(std::span<const Vec3d> corners) : left_(corners.size()) {
+    for (std::size_t i = 0; i < left_; ++i) ring_[i] = {static_cast<Index>(i), corners[i], {}};
+    for (std::size_t i = 0; i < left_; ++i) measure(i);
+  }
+
+  void clip(std::vector<std::array<Index, 3>>& triangles) {
+    while (left_ > 3) {
+      std::size_t best = 0;
+      for (std::size_t i = 1; i < left_; ++i)
+        if (ring_[best].ear.worseThan(ring_[i].ear)) best = i;
+      triangles.push_back(
+          {ring_[before(best)].number, ring_[best].number, ring_[after(best)].number});
+      std::copy(ring_.begin() + best + 1, ring_.begin() + left_, ring_.begin() + best);
+      --left_;
+      if (left_ == 3) break;
+      measure(before(best));
+      measure(best == left_ ? 0 : best);
+    }
+    triangles.push_back({ring_[0].number, ring_[1].number, ring_[2].number});
+  }
+
+ private:
+  struct Corner {
+    Index number;
+    Vec3d position;
+    Shape ear;
+  };
+
+  std::size_t before(std::size_t i) const { return (i == 0 ? left_ : i) - 1; }
+  std::size_t after(std::size_t i) const { return i + 1 == left_ ? 0 : i + 1; }
+  void measure(std::size_t i) {
+    ring_[i].ear = shapeOf(ring_[before(i)].position, ring_[i].position, ring_[after(i)].position);
+  }
+
+  std::size_t left_;
+  std::array<Corner, kMostCorners> ring_;
+};
 
 /// Vertices sorted into the cells of a square grid, about one per cell.
 class VertexGrid {
@@ -254,6 +314,10 @@ void cutWithout(std::span<const Vec3d> corners, std::span<const Index> kept,
 
 bool clipEars(std::span<const Vec3d> corners, std::span<const FlatPoint> flat,
               std::vector<std::array<Index, 3>>& triangles) {
+  if (corners.size() <= ConvexClipper::kMostCorners && isConvex(flat)) {
+    ConvexClipper(corners).clip(triangles);
+    return true;
+  }
   return EarClipper(corners, flat).clip(triangles);
 }
 
