@@ -3,12 +3,14 @@
 #include "libvox/core/error.h"
 #include "libvox/core/parallel.h"
 #include "libvox/mesh/validate.h"
+#include "libvox/subdivide/next_faces.h"
 #include "tests/reference.h"
 #include "tests/shapes.h"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -30,6 +32,14 @@ std::int64_t eulerCharacteristic(const SubdivisionLevel& level) {
 PolygonMesh moved(PolygonMesh mesh, const Eigen::Affine3d& transform) {
   for (Vec3d& p : mesh.points) p = transform * p;
   return mesh;
+}
+
+std::vector<std::vector<Index>> sortedFaces(const PolygonMesh& mesh) {
+  std::vector<std::vector<Index>> faces;
+  for (Index f = 0; f < mesh.faceCount(); ++f)
+    faces.emplace_back(mesh.face(f).begin(), mesh.face(f).end());
+  std::sort(faces.begin(), faces.end());
+  return faces;
 }
 
 /// Value of the uniform quadratic B-spline basis functions that act on a span, at t in [0, 1].
@@ -127,6 +137,22 @@ TEST_CASE("each step equals the formula applied corner by corner", "[subdivide][
       CHECK(worst < 1e-15 * 8);  // a dozen roundings of numbers of size 2
     }
   }
+}
+
+TEST_CASE("the faces that corners lead are those of the next level", "[subdivide][property]") {
+  for (const auto& shape : test::shapes())
+    for (const BoundaryRule rule : {BoundaryRule::kExtend, BoundaryRule::kFree}) {
+      CAPTURE(shape.name);
+      SubdivisionLevel level = baseLevel(shape.mesh, rule);
+      for (int k = 0; k < 2; ++k) {
+        CAPTURE(k);
+        PolygonMesh led;
+        const NextFaces next(level);
+        for (Index c = 0; c < level.mesh.cornerCount(); ++c) next.append(c, led);
+        level = subdivide(std::move(level), 1);
+        CHECK(sortedFaces(led) == sortedFaces(level.mesh));
+      }
+    }
 }
 
 TEST_CASE("the F-face of any face keeps its centroid", "[subdivide][property]") {

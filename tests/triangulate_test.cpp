@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <string>
 #include <utility>
@@ -64,6 +65,19 @@ double coverage(const std::vector<Vec3d>& polygon, const Triangles& triangles) {
     covered +=
         std::abs(areaVector(polygon[t[0]], polygon[t[1]], polygon[t[2]]).dot(area.normalized()));
   return covered / area.norm();
+}
+
+/// Of two ears, the better one has the larger sine of its smallest angle, in steps of 1/256, or at
+/// equal sines the shorter diagonal.
+std::pair<int, double> earQuality(const std::vector<Vec3d>& corners,
+                                  const std::array<Index, 3>& ear) {
+  double least = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d a = corners[ear[(i + 1) % 3]] - corners[ear[i]];
+    const Vec3d b = corners[ear[(i + 2) % 3]] - corners[ear[i]];
+    least = std::min(least, a.cross(b).norm() / (a.norm() * b.norm()));
+  }
+  return {static_cast<int>(256 * least), -(corners[ear[2]] - corners[ear[0]]).norm()};
 }
 
 std::vector<Vec3d> star(std::size_t n, std::mt19937& random) {
@@ -226,6 +240,54 @@ TEST_CASE("ears are clipped all around, not in a fan", "[voxelize][triangulate]"
     return length;
   };
   CHECK(sides(triangulated(corners).triangles) < sides(fan) / 2);
+}
+
+TEST_CASE("convex polygons lose the best-shaped ear first, small ones too",
+          "[voxelize][triangulate]") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(0, 1);
+  for (std::size_t n = 5; n <= 12; ++n)
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      CAPTURE(n, repeat);
+      std::vector<double> angles(n);
+      for (double& angle : angles) angle = 2 * std::numbers::pi * any(random);
+      std::sort(angles.begin(), angles.end());
+      std::vector<Vec3d> corners;
+      for (const double t : angles) corners.emplace_back(3 * std::cos(t), std::sin(t), 0);
+      turnAnyway(corners, random);
+
+      std::vector<Index> left(n);
+      std::iota(left.begin(), left.end(), 0U);
+      Triangles expected;
+      while (left.size() > 3) {
+        const auto ear = [&](std::size_t i) {
+          return std::array{left[(i + left.size() - 1) % left.size()], left[i],
+                            left[(i + 1) % left.size()]};
+        };
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < left.size(); ++i)
+          if (earQuality(corners, ear(i)) > earQuality(corners, ear(best))) best = i;
+        expected.push_back(ear(best));
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+      }
+      expected.push_back({left[0], left[1], left[2]});
+      const Triangulated result = triangulated(corners);
+      CHECK(result.triangles == expected);
+      CHECK(result.fanned == 0);
+    }
+}
+
+TEST_CASE("small polygons that wind around twice are cut into disks", "[voxelize][triangulate]") {
+  for (const std::size_t n : {5U, 6U, 7U}) {
+    CAPTURE(n);
+    std::vector<Vec3d> corners;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double t = 4 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+      const double r = n == 6 && i >= 3 ? 1.1 : 1;
+      corners.emplace_back(r * std::cos(t), r * std::sin(t), 0);
+    }
+    CHECK(isDisk(triangulated(corners).triangles, n));
+  }
 }
 
 TEST_CASE("a polygon without ears becomes a fan and is counted", "[voxelize][triangulate]") {

@@ -342,11 +342,10 @@ void triangulate(std::span<const Vec3d> corners, std::vector<std::array<Index, 3
   cutWithout(corners, apart, triangles, report);
 }
 
-void FaceTriangulator::add(const PolygonMesh& mesh, Index f,
+void FaceTriangulator::add(std::span<const Vec3d> points, std::span<const Index> face,
                            std::vector<std::array<Index, 3>>& triangles) {
-  const auto face = mesh.face(f);
   corners_.clear();
-  for (const Index v : face) corners_.push_back(mesh.points[v]);
+  for (const Index v : face) corners_.push_back(points[v]);
   const std::size_t first = triangles.size();
   triangulate(corners_, triangles, report_);
   for (std::size_t t = first; t < triangles.size(); ++t)

@@ -47,7 +47,12 @@ bool clipEars(std::span<const Vec3d> corners, std::span<const FlatPoint> flat,
 class FaceTriangulator {
  public:
   /// Appends the triangles of face f, as indices of points of the mesh.
-  void add(const PolygonMesh& mesh, Index f, std::vector<std::array<Index, 3>>& triangles);
+  void add(const PolygonMesh& mesh, Index f, std::vector<std::array<Index, 3>>& triangles) {
+    add(mesh.points, mesh.face(f), triangles);
+  }
+  /// Appends the triangles of a face, as indices of points.
+  void add(std::span<const Vec3d> points, std::span<const Index> face,
+           std::vector<std::array<Index, 3>>& triangles);
   const TriangulationReport& report() const { return report_; }
 
  private:

@@ -13,6 +13,8 @@
 #include "libvox/options/voxelize.h"
 #include "libvox/pipeline/refine.h"
 #include "libvox/pipeline/refined_polygons.h"
+#include "libvox/subdivide/image_vertices.h"
+#include "libvox/subdivide/next_faces.h"
 #include "libvox/voxelize/scan.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -30,6 +32,9 @@ namespace {
 /// among threads.
 constexpr std::size_t kFacesPerPart = 64;
 
+/// Corners of a task that makes faces itself: they lead some 200 faces.
+constexpr std::size_t kCornersPerPart = 256;
+
 /// Triangles that are longer, in voxels, are scanned in parts.
 constexpr double kLongTriangle = 512;
 
@@ -46,21 +51,39 @@ class ScanSink : public PolygonSink {
         progress_(progress),
         all_(all) {}
 
-  void polygons(const PolygonMesh& piece) override { faces(piece, 0, piece.faceCount()); }
+  void polygons(const PolygonMesh& piece) override {
+    faces(piece.points, piece, 0, piece.faceCount());
+  }
 
-  void faces(const PolygonMesh& mesh, Index begin, Index end) {
+  /// Scans faces of a mesh.
+  /// @param points  used in place of the points of the mesh
+  void faces(std::span<const Vec3d> points, const PolygonMesh& mesh, Index begin, Index end) {
     triangles_.clear();
-    for (Index f = begin; f != end; ++f)
-      if (region_.isAll() || isNear(mesh, f)) faces_.add(mesh, f, triangles_);
-    report_.triangles += triangles_.size();
-    const auto middle = std::stable_partition(
-        triangles_.begin(), triangles_.end(),
-        [&](const auto& triangle) { return !isLong(cornersOf(mesh, triangle)); });
-    const auto longOnes = static_cast<std::size_t>(triangles_.end() - middle);
-    scanTriangles(mesh.points, std::span(triangles_).first(triangles_.size() - longOnes),
-                  separation_, [this](const VoxelBlock& block) { add(block); });
-    const auto many = std::vector(middle, triangles_.end());
-    for (const auto& triangle : many) scanInParts(cornersOf(mesh, triangle));
+    longTriangles_.clear();
+    for (Index f = begin; f != end; ++f) {
+      const Box box = boxAround(points, mesh.face(f));
+      if (!region_.isAll() && !isNear(box)) continue;
+      faces_.add(points, mesh.face(f),
+                 box.longestSide() <= kLongTriangle ? triangles_ : longTriangles_);
+    }
+    report_.triangles += triangles_.size() + longTriangles_.size();
+    const auto shorter = [&](const auto& triangle) {
+      return boxAround(points, triangle).longestSide() <= kLongTriangle;
+    };
+    const auto middle = std::partition(longTriangles_.begin(), longTriangles_.end(), shorter);
+    triangles_.insert(triangles_.end(), longTriangles_.begin(), middle);
+    scanTriangles(points, triangles_, separation_, [this](const VoxelBlock& block) { add(block); });
+    const auto many = std::vector(middle, longTriangles_.end());
+    for (const auto& triangle : many)
+      scanInParts({points[triangle[0]], points[triangle[1]], points[triangle[2]]});
+  }
+
+  /// Scans the faces of the next level that some corners lead.
+  void ledFaces(std::span<const Vec3d> points, const NextFaces& next, Index begin, Index end) {
+    piece_.faceOffsets.resize(1);
+    piece_.faceVertices.clear();
+    for (Index c = begin; c != end; ++c) next.append(c, piece_);
+    faces(points, piece_, 0, piece_.faceCount());
   }
 
   void flush() { cache_.flush(); }
@@ -70,20 +93,16 @@ class ScanSink : public PolygonSink {
  private:
   using Corners = std::array<Vec3d, 3>;
 
-  static Corners cornersOf(const PolygonMesh& mesh, const std::array<Index, 3>& triangle) {
-    return {mesh.points[triangle[0]], mesh.points[triangle[1]], mesh.points[triangle[2]]};
+  static Box boxAround(std::span<const Vec3d> points, std::span<const Index> corners) {
+    Box box;
+    for (const Index v : corners) box.add(points[v]);
+    return box;
   }
   /// Whether a face may meet voxels of the region.
-  bool isNear(const PolygonMesh& mesh, Index face) const {
-    Box box = boxOf(mesh, std::span(&face, 1));
+  bool isNear(Box box) const {
     box.low.array() -= 1;
     box.high.array() += 1;
     return region_.meets(box);
-  }
-  static bool isLong(const Corners& corners) {
-    const Vec3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
-    const Vec3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-    return !((high - low).maxCoeff() <= kLongTriangle);
   }
 
   void add(const VoxelBlock& block) {
@@ -108,36 +127,49 @@ class ScanSink : public PolygonSink {
   const Progress& progress_;
   ScanSinks& all_;
   FaceTriangulator faces_;
-  std::vector<std::array<Index, 3>> triangles_;  // of a part
+  std::vector<std::array<Index, 3>> triangles_, longTriangles_;  // of a part
+  PolygonMesh piece_;                                            // without points
   PolygonReport report_;
 };
 
-void scanFaces(const PolygonMesh& mesh, Progress& progress, ScanSinks& sinks) {
-  const std::size_t parts = (mesh.faceCount() + kFacesPerPart - 1) / kFacesPerPart;
-  parallelForEach(parts, 1, [&](std::size_t part) {
+/// Calls scan(sink, begin, end) for all ranges of up to `most` of `count` elements.
+template <class Scan>
+void scanInRanges(std::size_t count, std::size_t most, Progress& progress, ScanSinks& sinks,
+                  const Scan& scan) {
+  parallelForEach((count + most - 1) / most, 1, [&](std::size_t part) {
     progress.check();
-    const std::size_t begin = part * kFacesPerPart;
-    const std::size_t end = std::min<std::size_t>(begin + kFacesPerPart, mesh.faceCount());
-    sinks.local().faces(mesh, static_cast<Index>(begin), static_cast<Index>(end));
+    const std::size_t end = std::min(count, (part + 1) * most);
+    scan(sinks.local(), static_cast<Index>(part * most), static_cast<Index>(end));
   });
 }
 
-/// Scans the whole mesh of a level.
+/// Scans the polygons of a level. The last step makes no mesh: only its points, and the faces of a
+/// task.
 void scanLevel(SubdivisionLevel base, int levels, MemoryBudget& budget, Progress& progress,
                ActiveVoxels& grid, ScanSinks& sinks) {
-  const PolygonMesh mesh = subdividedWithin(budget, std::move(base), levels, progress).mesh;
-  budget.take(bytesOf(mesh), "the refined mesh", "use fewer levels, or raise --max-memory");
+  const SubdivisionLevel level =
+      subdividedWithin(budget, std::move(base), std::max(levels - 1, 0), progress);
+  budget.take(bytesOf(level) + (levels > 0 ? bytesOfImage(level) : 0), "the refined mesh",
+              "use fewer levels, or raise --max-memory");
   grid.setMemoryLimit(grid.memoryBytes() + budget.left());
-  scanFaces(mesh, progress, sinks);
+  const PolygonMesh& mesh = level.mesh;
+  if (levels == 0)
+    return scanInRanges(
+        mesh.faceCount(), kFacesPerPart, progress, sinks,
+        [&](ScanSink& sink, Index begin, Index end) { sink.faces(mesh.points, mesh, begin, end); });
+  const std::vector<Vec3d> points = imageVertices(level);
+  const NextFaces next(level);
+  scanInRanges(
+      mesh.cornerCount(), kCornersPerPart, progress, sinks,
+      [&](ScanSink& sink, Index begin, Index end) { sink.ledFaces(points, next, begin, end); });
 }
 
-/// Whether level 1 is built as a whole: of a dense mesh, submeshes cost more than its polygons.
+/// Whether level 1 is made without submeshes: of a dense mesh, they cost more than its polygons.
 bool isWholeCheaper(const SubdivisionLevel& base, const StopRule& until,
                     const MemoryBudget& budget) {
   constexpr Index kDense = 1 << 16;  // faces
   if (until.levels != 1 || base.mesh.faceCount() < kDense || !base.seam.empty()) return false;
-  const std::uint64_t level = bytesOf(base) + bytesOfImage(base) + bytesOfNextTopology(base);
-  return 2 * level < budget.left();
+  return 2 * (bytesOf(base) + bytesOfImage(base)) < budget.left();
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ class ActiveVoxels;
 /// Polygon conversion of a prepared surface in index space into a grid: refines polygons to the
 /// stop rule (levels = 0: takes those of the base), cuts them into triangles and switches on every
 /// voxel that these meet in the sense of `separation` (scan.h). Neighbouring polygons share sides
-/// of triangles, so the voxels separate the two sides of the surface. The refined mesh is built as
-/// a whole only for levels = K with Localize::kOff. Parallel; the voxels do not depend on threads
-/// or submeshes. Credits the current stage of `progress`.
+/// of triangles, so the voxels separate the two sides of the surface. Whole levels are built only
+/// for levels = K with Localize::kOff, and of the last one only the points. Parallel; the voxels do
+/// not depend on threads or submeshes. Credits the current stage of `progress`.
 ///
 /// @param until   not untilVoxel()
 /// @param budget  for the nodes of the grid, and a refined mesh, until this returns
