@@ -9,11 +9,14 @@
 #include "tests/shapes.h"
 
 #include <catch2/catch.hpp>
+#include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <random>
 #include <vector>
 
 using namespace vox;
@@ -26,6 +29,23 @@ PolygonMesh bar(double length) {
   for (Vec3d& p : mesh.points) {
     p.x() *= length;
     p = Vec3d(0.8 * p.x() - 0.6 * p.y(), 0.6 * p.x() + 0.8 * p.y(), p.z());
+  }
+  return mesh;
+}
+
+/// A closed rough surface of triangles around vertices of 4 to 8 edges.
+PolygonMesh roughTriangles() {
+  const PolygonMesh quads = test::torusGrid(16, 8);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(-0.08, 0.08);
+  PolygonMesh mesh;
+  for (const Vec3d& p : quads.points)
+    mesh.points.push_back(p + Vec3d(shift(random), shift(random), shift(random)));
+  for (Index f = 0; f < quads.faceCount(); ++f) {
+    const auto q = quads.face(f);
+    const std::size_t first = random() % 2;
+    mesh.addFace(std::array{q[first], q[first + 1], q[first + 2]});
+    mesh.addFace(std::array{q[first], q[first + 2], q[(first + 3) % 4]});
   }
   return mesh;
 }
@@ -145,6 +165,37 @@ TEST_CASE("submeshes emit the vertices of the whole mesh, each once and at its l
           const Collector whole = globally(base);
           for (const Index faces : {1U, 3U, 1000U}) requireSame(locally(base, faces), whole);
         }
+}
+
+TEST_CASE("vertices of triangles, made many at a time, are those of the whole mesh",
+          "[subdivide][localize][property]") {
+  for (const double size : {2.0, 5.0, 11.0, 30.0}) {
+    CAPTURE(size);
+    const SubdivisionLevel base = scaled(roughTriangles(), size, BoundaryRule::kExtend);
+    const Collector whole = globally(base);
+    for (const Index faces : {1U, 37U, 1000U}) requireSame(locally(base, faces), whole);
+  }
+}
+
+TEST_CASE("every instruction set makes the same vertices of triangles, bit for bit",
+          "[subdivide][simd]") {
+  const SubdivisionLevel base = scaled(roughTriangles(), 8, BoundaryRule::kExtend);
+  const auto make = [&] {
+    std::map<int, std::vector<std::array<double, 3>>> sorted;
+    for (const auto& [level, vertices] : locally(base, 100).vertices) {
+      for (const Vec3d& v : vertices) sorted[level].push_back({v.x(), v.y(), v.z()});
+      std::sort(sorted[level].begin(), sorted[level].end());
+    }
+    return sorted;
+  };
+  const auto best = make();
+  CHECK(best.count(2) + best.count(3) == 2);
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    CAPTURE(hwy::TargetName(target));
+    hwy::GetChosenTarget().Update(target);
+    CHECK((make() == best));
+  }
+  hwy::GetChosenTarget().DeInit();
 }
 
 TEST_CASE("fans of dense meshes make the vertices of the whole mesh, or leave all of a fan",

@@ -8,14 +8,8 @@
 namespace vox {
 namespace {
 
-/// Weights 2/3, 1/6, 1/6.
-void imagesOfTriangle(std::span<const Vec3d> v, std::span<Vec3d> images) {
-  const Vec3d sixth = (v[0] + v[1] + v[2]) / 6.0;
-  for (std::size_t i = 0; i < 3; ++i) images[i] = 0.5 * v[i] + sixth;
-}
-
-void imagesOfPolygon(std::span<const Vec3d> v, std::span<const UnitRoot> roots,
-                     std::span<Vec3d> images) {
+void imagesByRoots(std::span<const Vec3d> v, std::span<const UnitRoot> roots,
+                   std::span<Vec3d> images) {
   const auto n = static_cast<double>(v.size());
   Vec3d sum = Vec3d::Zero();
   Vec3d sumCosine = Vec3d::Zero();
@@ -32,16 +26,15 @@ void imagesOfPolygon(std::span<const Vec3d> v, std::span<const UnitRoot> roots,
 
 }  // namespace
 
-void FaceImages::of(std::span<const Vec3d> corners, std::span<Vec3d> images) {
+void FaceImages::ofPolygon(std::span<const Vec3d> corners, std::span<Vec3d> images) {
   const std::size_t n = corners.size();
-  if (n == 3) return imagesOfTriangle(corners, images);
   if (n == 4) {
     const auto quad = quadImages(corners[0], corners[1], corners[2], corners[3]);
     std::copy(quad.begin(), quad.end(), images.begin());
     return;
   }
   if (roots_.size() != n) roots_ = unitRoots(static_cast<Index>(n));
-  imagesOfPolygon(corners, roots_, images);
+  imagesByRoots(corners, roots_, images);
 }
 
 }  // namespace vox

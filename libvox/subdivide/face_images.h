@@ -23,6 +23,11 @@ inline std::array<Vec3d, 4> quadImages(const Vec3d& a, const Vec3d& b, const Vec
           quadImage(d, a, c, b)};
 }
 
+/// The mean of a triangle, halved: what each of its image vertices adds to half of its corner.
+inline Vec3d halfMean(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  return (a + b + c) / 6.0;
+}
+
 /// Image vertices of single faces. Keeps the cosines for the last face size. One object per thread.
 class FaceImages {
  public:
@@ -30,9 +35,18 @@ class FaceImages {
   /// harmonic (A, B): U_i = V_i / 4 + 3/4 m + 1/(2n) (A cos t_i + B sin t_i), t_i = 2 pi i / n.
   /// Cost O(n).
   /// Source: Doo & Sabin 1978; paper section 2.1, eq. (1).
-  void of(std::span<const Vec3d> corners, std::span<Vec3d> images);
+  void of(std::span<const Vec3d> corners, std::span<Vec3d> images) {
+    if (corners.size() == 3) {  // weights 2/3, 1/6, 1/6
+      const Vec3d sixth = halfMean(corners[0], corners[1], corners[2]);
+      for (std::size_t i = 0; i < 3; ++i) images[i] = 0.5 * corners[i] + sixth;
+    } else {
+      ofPolygon(corners, images);
+    }
+  }
 
  private:
+  void ofPolygon(std::span<const Vec3d> corners, std::span<Vec3d> images);
+
   std::vector<UnitRoot> roots_;
 };
 

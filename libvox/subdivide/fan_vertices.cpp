@@ -82,8 +82,8 @@ bool FanVertices::gatherFineTriangles(Index lowest, Index valence) {
     const Index next = nextCorner(mesh, base_.adjacency, c);
     ring_[i] = mesh.points[mesh.faceVertices[next]];
     if ((ring_[i] - v).cwiseAbs().maxCoeff() > 2 * kLimit) return false;
-    const Vec3d sixth = (mesh.points[face[0]] + mesh.points[face[1]] + mesh.points[face[2]]) / 6.0;
-    vFace_[i] = 0.5 * v + sixth;
+    vFace_[i] =
+        0.5 * v + halfMean(mesh.points[face[0]], mesh.points[face[1]], mesh.points[face[2]]);
     c = nextAroundVertex(mesh, base_.adjacency, c);
   }
   valence_ = valence;
@@ -164,10 +164,15 @@ void FanVertices::makeChildren(Index i) {
   const Face& face = faces_[i];
   const Face& right = faces_[before(i)];
   const Face& left = faces_[after(i)];
-  std::array<Vec3d, kMostSides> inFace;
-  setImages(std::span(face.images).first(face.size), std::span(inFace));
   std::vector<Vec3d>& children = fine_[1];
-  children.push_back(inFace[face.place]);
+  if (face.size == 3) {
+    const auto& images = face.images;
+    children.push_back(0.5 * face.at() + halfMean(images[0], images[1], images[2]));
+  } else {
+    std::array<Vec3d, kMostSides> inFace;
+    setImages(std::span(face.images).first(face.size), std::span(inFace));
+    children.push_back(inFace[face.place]);
+  }
   children.push_back(quadImage(face.at(), face.next(), right.at(), right.previous()));
   children.push_back(quadImage(face.at(), face.previous(), left.at(), left.next()));
   children.push_back(inVFace_[i]);

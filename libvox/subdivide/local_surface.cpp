@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace vox {
 namespace {
@@ -88,10 +89,13 @@ class LocalSurface::FineVertices {
     finish(quadImage(p[1][1], p[1][2], p[0][1], p[0][2]), level + 1);
     finish(inVFace, level + 1);
   }
+  void give(std::span<const Vec3d> vertices, int level) {
+    if (!vertices.empty()) sink_.points(vertices, level);
+  }
   /// Gives the sink what is finished.
   void flush() {
     for (std::size_t i = 0; i < finished_.size(); ++i) {
-      if (!finished_[i].empty()) sink_.points(finished_[i], static_cast<int>(i) + 1);
+      give(finished_[i], static_cast<int>(i) + 1);
       finished_[i].clear();
     }
   }
@@ -108,6 +112,7 @@ void LocalSurface::emit(std::span<const Index> faces, SurfaceSink& sink) {
     emitFace(first, fine);
     if (vertices_.images().extends()) emitBoundary(first, sink);
   });
+  splitBatch(fine);
   fine.flush();
 }
 
@@ -133,9 +138,54 @@ void LocalSurface::emitFace(const SubmeshCorner& first, FineVertices& fine) {
     if (isInside(at) && childrenFineEnough(largest, contractionAround))
       fine.finishChildren(vertex.around, vertex.face->corners(2)[vertex.place],
                           vertex.vFace->corners(2)[vertex.placeInVFace], 1);
+    else if (isInside(at) && vertex.face->size() != 4 && vertex.vFace->size() != 4)
+      addToBatch(at, vertex, fine);
     else
       Descent(fine).below(vertex, {});
   }
+}
+
+/// Collects a vertex, to walk below it together with others.
+void LocalSurface::addToBatch(const SubmeshCorner& at, const LevelOneVertex& vertex,
+                              FineVertices& fine) {
+  using B = SplitBatch;
+  const std::size_t lane = inBatch_++;
+  corners_[lane] = at;
+  const auto& p = vertex.around.points;
+  batch_.set(lane, B::kAt, p[1][1]);
+  batch_.set(lane, B::kNext, p[2][1]);
+  batch_.set(lane, B::kPrevious, p[1][2]);
+  batch_.set(lane, B::kRight, p[1][0]);
+  batch_.set(lane, B::kRightFar, p[2][0]);
+  batch_.set(lane, B::kLeft, p[0][1]);
+  batch_.set(lane, B::kLeftFar, p[0][2]);
+  const auto setFace = [&](FaceLevels& face, std::size_t place, B::Point here, B::Point next,
+                           B::Point previous, B::Point deep) {
+    batch_.set(lane, deep, face.corners(3)[place]);
+    const std::span<const Vec3d> images = face.corners(2);
+    batch_.set(lane, here, images[place]);
+    batch_.set(lane, next, images[place + 1 == images.size() ? 0 : place + 1]);
+    batch_.set(lane, previous, images[(place == 0 ? images.size() : place) - 1]);
+  };
+  setFace(*vertex.face, vertex.place, B::kInF, B::kNextInF, B::kPreviousInF, B::kDeepInF);
+  setFace(*vertex.vFace, vertex.placeInVFace, B::kInVFace, B::kLeftInVFace, B::kRightInVFace,
+          B::kDeepInVFace);
+  batch_.sizeOfF[lane] = vertex.face->diameter(2);
+  batch_.sizeOfVFace[lane] = vertex.vFace->diameter(2);
+  batch_.contractionInF[lane] = std::max(contraction(vertex.face->size()), contraction(4));
+  batch_.contractionInVFace[lane] = std::max(contraction(vertex.vFace->size()), contraction(4));
+  if (inBatch_ == B::kLanes) splitBatch(fine);
+}
+
+/// Makes what the collected vertices become.
+void LocalSurface::splitBatch(FineVertices& fine) {
+  const std::size_t count = std::exchange(inBatch_, 0);
+  if (count == 0) return;
+  splitAll(batch_, count, split_);
+  fine.give(std::span(split_.level2).first(split_.count2), 2);
+  fine.give(std::span(split_.level3).first(split_.count3), 3);
+  for (std::size_t lane = 0; lane < count; ++lane)
+    if ((split_.deeper >> lane & 1U) != 0) Descent(fine).below(vertices_.at(corners_[lane]), {});
 }
 
 /// Largest diameter of the faces around a level-1 vertex.

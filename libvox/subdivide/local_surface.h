@@ -2,7 +2,10 @@
 
 #include "libvox/mesh/patch.h"
 #include "libvox/subdivide/local_vertices.h"
+#include "libvox/subdivide/split_batch.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,6 +41,8 @@ class LocalSurface {
   class FineVertices;
 
   void emitFace(const SubmeshCorner& first, FineVertices& fine);
+  void addToBatch(const SubmeshCorner& at, const LevelOneVertex& vertex, FineVertices& fine);
+  void splitBatch(FineVertices& fine);
   double diameterAround(const SubmeshCorner& corner, double faceDiameter) const;
   bool isInside(const SubmeshCorner& corner) const;
   void emitBoundary(const SubmeshCorner& first, SurfaceSink& sink);
@@ -45,6 +50,10 @@ class LocalSurface {
   LocalVertices vertices_;
   std::span<const std::uint8_t> leftOut_;
   std::vector<std::vector<Vec3d>> finished_;  // vertices that are fine enough, by level
+  SplitBatch batch_;                          // vertices that are not
+  std::array<SubmeshCorner, SplitBatch::kLanes> corners_;  // of the batch
+  std::size_t inBatch_ = 0;
+  SplitVertices split_;
 };
 
 }  // namespace vox
