@@ -1,10 +1,15 @@
 #pragma once
 
 #include "libvox/foot/biquadratic.h"
+#include "libvox/foot/star_fit.h"
 #include "libvox/grid/openvdb.h"
 #include "libvox/grid/region.h"
+#include "libvox/grid/transform.h"
+
+#include <tbb/concurrent_vector.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -52,6 +57,20 @@ struct PolynomialCell {
   float limitA = 1, limitB = 1;  ///< the foot is in the cell if |a| and |b| are at most these
 };
 
+/// A part of the surface as a height above a rectangle (foot/star_fit.h), without a place.
+struct HeightCell {
+  Prism prism;
+  Float3 middle;                   ///< of the rectangle, from prism.origin
+  std::array<Float3, 3> axes;      ///< unit: along a, along b, and up
+  Quartic<float> height;           ///< a, b in voxels
+  std::array<float, 2> half = {};  ///< half sides of the rectangle
+  /// Feet count where s[0] a + s[1] b <= s[2]; distant ones also a little beyond, as far as normals
+  /// are off.
+  std::array<Float3, kMostOfStar> sides;
+  std::uint32_t sideCount = 0;
+  float stop = 0;  ///< a shorter step is the last one, voxels
+};
+
 /// A flat triangle of a polygon mesh. The foot of a point is in its face, on an edge or at a
 /// vertex; the normal of this place tells the side of the point.
 struct TriangleCell {
@@ -68,6 +87,7 @@ struct TriangleCell {
 enum class CellKind : std::uint8_t {
   kNewton,
   kPolynomial,
+  kHeight,
   kTriangle,  ///< of a polygon mesh
   kRibbon,    ///< a triangle of a sliver of the limit surface
 };
@@ -81,12 +101,17 @@ struct BinnedCell {
   CellKind kind;
 };
 
+/// Cells that stay where they are while others are added, so that memory is never copied.
+template <class Cell>
+using Cells = tbb::concurrent_vector<Cell>;
+
 /// The cells that one thread has made.
 struct CellStore {
   std::uint16_t number = 0;
-  std::vector<NewtonCell> newton;
-  std::vector<PolynomialCell> polynomial;
-  std::vector<TriangleCell> triangles;
+  Cells<NewtonCell> newton;
+  Cells<PolynomialCell> polynomial;
+  Cells<HeightCell> heights;
+  Cells<TriangleCell> triangles;
   std::vector<BinnedCell> binned;
   const std::vector<openvdb::Coord>* onlyBins =
       nullptr;         ///< if not null: the bins of interest, sorted
@@ -101,13 +126,19 @@ struct CellStore {
     return !region.meetsPages({low, high});
   }
 
+  /// Whether a part of a surface with its tube reaches no bin of interest.
+  /// @param part   box of the part, or of its control points
+  /// @param reach  of the tube, voxels
+  bool isFar(const Box& part, double reach) const;
+
   std::uint64_t bytes() const {
-    return newton.capacity() * sizeof(NewtonCell) + polynomial.capacity() * sizeof(PolynomialCell) +
-           triangles.capacity() * sizeof(TriangleCell) + binned.capacity() * sizeof(BinnedCell);
+    return newton.size() * sizeof(NewtonCell) + polynomial.size() * sizeof(PolynomialCell) +
+           heights.size() * sizeof(HeightCell) + triangles.size() * sizeof(TriangleCell) +
+           binned.capacity() * sizeof(BinnedCell);
   }
 
   /// Enters a cell in all bins of interest that its box meets.
-  void bin(const Prism& prism, std::uint32_t owner, std::size_t cell, CellKind kind);
+  void bin(const Prism& prism, std::uint32_t owner, std::ptrdiff_t cell, CellKind kind);
 };
 
 }  // namespace vox

@@ -166,20 +166,12 @@ float CellMaker::biasOf(unsigned sides) const {
   return options_.creases && sides != 0 ? kCreaseBias : 0;
 }
 
-/// Whether a piece, with its tube, reaches no bin of interest.
 bool CellMaker::isFar(const LimitPiece& piece) const {
   if (!store_.region.hasPages()) return false;
-  Vec3d low = piece.points[0][0], high = low;
+  Box box;
   for (const auto& row : piece.points)
-    for (const Vec3d& point : row) {
-      low = low.cwiseMin(point);
-      high = high.cwiseMax(point);
-    }
-  const double reach = 2.0 * options_.reach + 1;  // around a boundary the tube is wider
-  low.array() -= reach;
-  high.array() += reach;
-  return store_.isFar({openvdb::Coord::floor(openvdb::Vec3d(low.data())),
-                       openvdb::Coord::ceil(openvdb::Vec3d(high.data()))});
+    for (const Vec3d& point : row) box.add(point);
+  return store_.isFar(box, options_.reach);
 }
 
 void CellMaker::piece(const LimitPiece& piece) {
@@ -301,7 +293,8 @@ Prism CellMaker::prismOf(const Shape& shape, unsigned sides) const {
 void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsigned sides) {
   const Prism prism = prismOf(shape, sides);
   if (prism.box.empty()) return;
-  NewtonCell& cell = store_.newton.emplace_back();
+  const auto added = store_.newton.emplace_back();
+  NewtonCell& cell = *added;
   cell.prism = prism;
   cell.surface = shape.c;
   cell.guess = shape.guess;
@@ -317,7 +310,7 @@ void CellMaker::addNewtonCell(const Shape& shape, const ParameterBox& part, unsi
   cell.v = static_cast<float>(square.v + square.sideV * (part.v0 + part.v1) / 2);
   cell.side = {static_cast<float>(square.sideU * (part.u1 - part.u0) / 2),
                static_cast<float>(square.sideV * (part.v1 - part.v0) / 2)};
-  store_.bin(prism, owner(), store_.newton.size() - 1, CellKind::kNewton);
+  store_.bin(prism, owner(), added - store_.newton.begin(), CellKind::kNewton);
 }
 
 /// Returns false if polynomials are not precise enough.
@@ -325,13 +318,11 @@ bool CellMaker::addPolynomialCell(const Shape& shape) {
   const Prism prism = prismOf(shape, 0);
   if (prism.box.empty()) return true;
   if (store_.isFar(prism.box)) return true;
-  PolynomialCell& cell = store_.polynomial.emplace_back();
+  PolynomialCell cell;
   cell.prism = prism;
-  if (!fitFoot(shape.c, {shape.alongA, shape.alongB, shape.normal}, cell)) {
-    store_.polynomial.pop_back();
-    return false;
-  }
-  store_.bin(prism, owner(), store_.polynomial.size() - 1, CellKind::kPolynomial);
+  if (!fitFoot(shape.c, {shape.alongA, shape.alongB, shape.normal}, cell)) return false;
+  const auto added = store_.polynomial.push_back(cell);
+  store_.bin(prism, owner(), added - store_.polynomial.begin(), CellKind::kPolynomial);
   return true;
 }
 

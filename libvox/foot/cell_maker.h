@@ -10,7 +10,8 @@ namespace vox {
 
 struct CellOptions {
   float reach = 3;          ///< largest distance of interest, voxels
-  bool polynomials = true;  ///< make polynomial cells where they are precise enough
+  bool polynomials = true;  ///< make polynomial cells and heights where they are precise enough
+  double heightTolerance = 0.01;  ///< of heights, voxels
   PieceTolerance tolerance = {.small = 0.02, .large = 0.003};
   float newtonStop = 0.15F;  ///< a shorter step of Newton's method is the last one, voxels
   bool creases = false;      ///< boundary sides are sides of creases (DESIGN section 19)

@@ -395,12 +395,14 @@ class Exposure {
     if (work.hidden.empty()) return;
     for (auto& leaf : work.wanted.voxels) leaf.fill(0);
     for (auto& leaf : work.wanted.least) leaf.fill(0);
+    work.wanted.leaves = 0;
     const auto numberOf = [&](const HiddenFoot& foot) {
       const Coord at = leaves[foot.leaf].leaf->origin() - bins_.originOf(bin);
       return leafOf(static_cast<unsigned>(at.x()), static_cast<unsigned>(at.y()),
                     static_cast<unsigned>(at.z()));
     };
     for (const HiddenFoot& foot : work.hidden) {
+      work.wanted.leaves |= std::uint64_t{1} << numberOf(foot);
       work.wanted.voxels[numberOf(foot)][foot.voxel >> 6] |= std::uint64_t{1} << (foot.voxel & 63U);
       work.wanted.least[numberOf(foot)][foot.voxel] = keyOf(std::max(0.0F, foot.most - kUncovered));
     }

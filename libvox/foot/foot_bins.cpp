@@ -19,7 +19,15 @@ auto orderOf(const BinnedCell& cell) {
 
 }  // namespace
 
-void CellStore::bin(const Prism& prism, std::uint32_t owner, std::size_t cell, CellKind kind) {
+bool CellStore::isFar(const Box& part, double reach) const {
+  if (!region.hasPages()) return false;
+  const double margin = 2 * reach + 1;  // around a boundary the tube is wider
+  const Vec3d low = part.low.array() - margin, high = part.high.array() + margin;
+  return isFar({openvdb::Coord::floor(openvdb::Vec3d(low.data())),
+                openvdb::Coord::ceil(openvdb::Vec3d(high.data()))});
+}
+
+void CellStore::bin(const Prism& prism, std::uint32_t owner, std::ptrdiff_t cell, CellKind kind) {
   const openvdb::CoordBBox bins(prism.box.min() >> kBinLog2, prism.box.max() >> kBinLog2);
   const auto enter = [&](const openvdb::Coord& at) {
     if (!region.meetsPages(openvdb::CoordBBox::createCube(at << kBinLog2, kBinSide))) return;

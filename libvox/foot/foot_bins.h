@@ -35,6 +35,9 @@ class FootBins {
   const PolynomialCell& polynomial(const BinnedCell& cell) const {
     return stores_[cell.store]->polynomial[cell.cell];
   }
+  const HeightCell& height(const BinnedCell& cell) const {
+    return stores_[cell.store]->heights[cell.cell];
+  }
   const TriangleCell& triangle(const BinnedCell& cell) const {
     return stores_[cell.store]->triangles[cell.cell];
   }

@@ -9,6 +9,7 @@
 #endif
 
 #include "libvox/foot/biquadratic.h"
+#include "libvox/foot/star_fit.h"
 
 #include <hwy/highway.h>
 
@@ -59,6 +60,34 @@ HWY_INLINE V3 cross3(const V3& a, const V3& b) {
     return hn::Sub(hn::Mul(a[i], b[j]), hn::Mul(a[j], b[i]));
   };
   return {component(1, 2), component(2, 0), component(0, 1)};
+}
+
+/// Value and derivatives of a polynomial.
+struct QuarticJetV {
+  V value, a, b, halfAa, ab, halfBb;
+};
+/// A value, its derivative, and half of the second one, by Horner's scheme.
+template <std::size_t n>
+HWY_INLINE V3 horner(const std::array<V, n>& terms, V x) {
+  V value = mulAdd(terms[n - 1], x, terms[n - 2]);
+  V half = terms[n - 1];
+  V first = mulAdd(half, x, value);
+  value = mulAdd(value, x, terms[n - 3]);
+  for (std::size_t i = n - 3; i-- > 0;) {
+    half = mulAdd(half, x, first);
+    first = mulAdd(first, x, value);
+    value = mulAdd(value, x, terms[i]);
+  }
+  return {value, first, half};
+}
+HWY_INLINE void jetAt(const Quartic<V>& c, V a, V b, QuarticJetV& jet) {
+  const V3 r0 = horner<5>({c[0], c[1], c[2], c[3], c[4]}, a);
+  const V3 r1 = horner<4>({c[5], c[6], c[7], c[8]}, a);
+  const V3 r2 = horner<3>({c[9], c[10], c[11]}, a);
+  const V3 values = horner<5>({r0[0], r1[0], r2[0], mulAdd(c[13], a, c[12]), c[14]}, b);
+  const V3 alongA = horner<4>({r0[1], r1[1], r2[1], c[13]}, b);
+  jet = {values[0], alongA[0], values[1], mulAdd(mulAdd(r2[2], b, r1[2]), b, r0[2]),
+         alongA[1], values[2]};
 }
 
 /// One step of Newton's method for the least |x - S(a, b)|^2 with |a|, |b| <= limit. Where the

@@ -192,7 +192,8 @@ void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, float
     const Prism prism = prismAround(points, origin, frame,
                                     {margin[0] * tube + kMargin, margin[1] * tube + kMargin, tube});
     if (prism.box.empty()) return;
-    TriangleCell& cell = store.triangles.emplace_back();
+    const auto added = store.triangles.emplace_back();
+    TriangleCell& cell = *added;
     cell.prism = prism;
     cell.normal = asFloats(mean);
     cell.creaseBias = creaseBias;
@@ -204,7 +205,7 @@ void addRibbon(const Ribbon& ribbon, const LimitPiece& piece, float reach, float
       cell.places[i] = {static_cast<float>(square.u + square.sideU * corners[i]->u),
                         static_cast<float>(square.v + square.sideV * corners[i]->v)};
     }
-    store.bin(prism, owner, store.triangles.size() - 1, CellKind::kRibbon);
+    store.bin(prism, owner, added - store.triangles.begin(), CellKind::kRibbon);
   };
   const std::size_t last = ribbon.right.size() - 1;
   // The first and the last point are on both sides.

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 HWY_BEFORE_NAMESPACE();
 namespace vox::HWY_NAMESPACE {
@@ -112,6 +113,97 @@ void solve(const NewtonCell& cell, const Float3& shift, Feet& feet) {
   }
 }
 
+/// A step of Newton's method, as newtonStep, for a height; x in its frame.
+/// @return the larger change of a and b
+HWY_INLINE V heightStep(const Quartic<V>& height, const V3& x, const std::array<V, 2>& half, V& a,
+                        V& b) {
+  const V one = set(1);
+  QuarticJetV jet;
+  jetAt(height, a, b, jet);
+  const V ra = hn::Sub(x[0], a), rb = hn::Sub(x[1], b), rise = hn::Sub(x[2], jet.value);
+  const V gradientA = mulAdd(rise, jet.a, ra), gradientB = mulAdd(rise, jet.b, rb);
+  const V twice = hn::Add(rise, rise);
+  const V e = mulAdd(jet.a, jet.a, one), g = mulAdd(jet.b, jet.b, one), f = hn::Mul(jet.a, jet.b);
+  V haa = hn::Sub(e, hn::Mul(twice, jet.halfAa));
+  V hbb = hn::Sub(g, hn::Mul(twice, jet.halfBb));
+  V hab = hn::Sub(f, hn::Mul(rise, jet.ab));
+  V det = hn::Sub(hn::Mul(haa, hbb), hn::Mul(hab, hab));
+  const V detFlat = hn::Sub(hn::Mul(e, g), hn::Mul(f, f));
+  const auto safe =
+      hn::And(hn::Gt(det, hn::Mul(set(0.02F), detFlat)), hn::Gt(haa, hn::Mul(set(0.05F), e)));
+  haa = hn::IfThenElse(safe, haa, e);
+  hbb = hn::IfThenElse(safe, hbb, g);
+  hab = hn::IfThenElse(safe, hab, f);
+  det = hn::IfThenElse(safe, det, detFlat);
+  const auto within = [](V p, V most) { return hn::Min(hn::Max(p, hn::Neg(most)), most); };
+  const V tiny = set(1e-30F);
+  const V stepA = hn::Div(hn::Sub(hn::Mul(hbb, gradientA), hn::Mul(hab, gradientB)), det);
+  // Each parameter once more, given the other one within its limits.
+  V na = within(hn::Add(a, stepA), half[0]);
+  const V nb = within(
+      hn::Add(b, hn::Div(hn::Sub(gradientB, hn::Mul(hab, hn::Sub(na, a))), hn::Max(hbb, tiny))),
+      half[1]);
+  na = within(
+      hn::Add(a, hn::Div(hn::Sub(gradientA, hn::Mul(hab, hn::Sub(nb, b))), hn::Max(haa, tiny))),
+      half[0]);
+  const V change = hn::Max(hn::Abs(hn::Sub(na, a)), hn::Abs(hn::Sub(nb, b)));
+  a = na;
+  b = nb;
+  return change;
+}
+
+constexpr float kNoFoot = 1e30F;  // a distance that is larger than all others
+
+void solveHeight(const HeightCell& cell, const Float3& shift, Feet& feet) {
+  constexpr int kMostSteps = 6;
+  const D d;
+  const V one = set(1);
+  Quartic<V> height;
+  for (std::size_t i = 0; i < height.size(); ++i) height[i] = set(cell.height[i]);
+  const std::array<V, 2> half = {set(cell.half[0]), set(cell.half[1])};
+  const V stop = set(cell.stop);
+  Float3 middle;
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = shift[k] + cell.middle[k];
+  for (std::size_t i = 0; i < feet.count; i += hn::Lanes(d)) {
+    const V3 from = {hn::Sub(hn::Load(d, feet.x.data() + i), set(middle[0])),
+                     hn::Sub(hn::Load(d, feet.y.data() + i), set(middle[1])),
+                     hn::Sub(hn::Load(d, feet.z.data() + i), set(middle[2]))};
+    const V3 x = {along(cell.axes[0], from), along(cell.axes[1], from), along(cell.axes[2], from)};
+    V a = hn::Min(hn::Max(x[0], hn::Neg(half[0])), half[0]);
+    V b = hn::Min(hn::Max(x[1], hn::Neg(half[1])), half[1]);
+    auto moving = hn::Eq(one, one);
+    for (int step = 0; step < kMostSteps && !hn::AllFalse(d, moving); ++step) {
+      V nextA = a, nextB = b;
+      const V change = heightStep(height, x, half, nextA, nextB);
+      a = hn::IfThenElse(moving, nextA, a);
+      b = hn::IfThenElse(moving, nextB, b);
+      moving = hn::And(moving, hn::Gt(change, stop));
+    }
+    QuarticJetV jet;
+    jetAt(height, a, b, jet);
+    const V ra = hn::Sub(x[0], a), rb = hn::Sub(x[1], b), rise = hn::Sub(x[2], jet.value);
+    const V side = hn::Sub(rise, mulAdd(ra, jet.a, hn::Mul(rb, jet.b)));
+    const V n2 = mulAdd(jet.a, jet.a, mulAdd(jet.b, jet.b, one));
+    const V r2 = mulAdd(ra, ra, mulAdd(rb, rb, hn::Mul(rise, rise)));
+    // As in solve.
+    const V t2 = hn::Div(hn::Mul(side, side), n2);
+    const auto inside = hn::And(hn::And(hn::Lt(hn::Abs(a), half[0]), hn::Lt(hn::Abs(b), half[1])),
+                                hn::Lt(hn::Sub(r2, t2), set(0.04F)));
+    const V distance = hn::Sqrt(hn::IfThenElse(inside, hn::Min(t2, r2), r2));
+    const V beyond = hn::Mul(set(static_cast<float>(kSlopeOfStar)), distance);
+    auto counts = hn::Eq(one, one);
+    for (std::size_t s = 0; s < cell.sideCount; ++s) {
+      const auto& [sa, sb, most] = cell.sides[s];
+      const V out = mulAdd(set(sa), a, hn::Mul(set(sb), b));
+      counts = hn::And(counts, hn::Le(out, hn::Add(beyond, set(most))));
+    }
+    const V answer = hn::IfThenElse(counts, distance, set(kNoFoot));
+    hn::Store(hn::CopySign(answer, side), d, feet.t.data() + i);
+    hn::Store(a, d, feet.a.data() + i);
+    hn::Store(b, d, feet.b.data() + i);
+  }
+}
+
 /// The nearest point of a triangle, by the region in which its projection lies.
 /// Source: Ericson, Real-Time Collision Detection, 2005, section 5.1.5.
 void solveTriangle(const TriangleCell& cell, const Float3& shift, Feet& feet) {
@@ -175,32 +267,64 @@ void solveTriangle(const TriangleCell& cell, const Float3& shift, Feet& feet) {
   }
 }
 
+/// First and last z of the rows x, firstY, firstY + 1, ...: integers; first > last if the row has
+/// no voxel. Rows outside low and high are empty.
+/// @return the rows that are not empty: bit i for the i-th row
+HWY_INLINE unsigned rowsAt(const PrismRows& rows, int x, int firstY, PrismRows::Group& first,
+                           PrismRows::Group& last) {
+  const D d;
+  unsigned all = 0;
+  for (std::size_t r = 0; r < PrismRows::kGroup; r += hn::Lanes(d)) {
+    const V y = hn::Iota(d, static_cast<float>(firstY) + static_cast<float>(r));
+    V from = set(static_cast<float>(rows.low[2]));
+    V to = set(static_cast<float>(rows.high[2]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const V at =
+          mulAdd(set(rows.perY[k]), y, set(rows.middle[k] + rows.perX[k] * static_cast<float>(x)));
+      from = hn::Max(from, hn::Sub(at, set(rows.reach[k])));
+      to = hn::Min(to, hn::Add(at, set(rows.reach[k])));
+    }
+    from = hn::Ceil(from);
+    to = hn::Floor(to);
+    const auto inside = hn::And(hn::And(hn::Ge(y, set(static_cast<float>(rows.low[1]))),
+                                        hn::Le(y, set(static_cast<float>(rows.high[1])))),
+                                hn::Le(from, to));
+    hn::Store(hn::IfThenElse(inside, from, set(1)), d, first.data() + r);
+    hn::Store(hn::IfThenElse(inside, to, set(0)), d, last.data() + r);
+    std::array<std::uint8_t, 8> bits = {};
+    hn::StoreMaskBits(d, inside, bits.data());
+    all |= unsigned{bits[0]} << r;
+  }
+  return all;
+}
+
 /// @return whether the walk is at its end
 bool gatherRows(const PrismRows& rows, RowsPlace& at, Feet& feet) {
   const D d;
   const hn::RebindToUnsigned<D> du;
   static_assert(hn::MaxLanes(D()) <= Feet::kSlack);
   constexpr std::size_t kMostOfGroup = std::size_t{PrismRows::kGroup} * kBinSide;
-  PrismRows::Group first, last;
+  alignas(64) PrismRows::Group first, last;
   std::size_t count = feet.count;
   bool isFull = false;
-  for (; at.x <= rows.high[0]; ++at.x, at.y8 = rows.low[1] & ~7) {
+  for (; at.x <= rows.high[0]; ++at.x, at.y = rows.low[1]) {
     const V x = set(static_cast<float>(at.x));
-    for (; at.y8 <= rows.high[1]; at.y8 += PrismRows::kGroup) {
+    for (; at.y <= rows.high[1]; at.y += PrismRows::kGroup) {
       isFull = count + kMostOfGroup > Feet::kMost;
       if (isFull) break;
-      rows.rowsAt(at.x, at.y8, first, last);
-      const auto ux = static_cast<unsigned>(at.x), uy = static_cast<unsigned>(at.y8);
-      const unsigned start = leafOf(ux, uy, 0) << 9 | voxelInLeaf(ux, uy, 0);
-      for (unsigned r = 0; r < PrismRows::kGroup; ++r) {
-        if (!(first[r] <= last[r])) continue;
-        const V y = set(static_cast<float>(at.y8 + static_cast<int>(r)));
+      unsigned left = rowsAt(rows, at.x, at.y, first, last);
+      for (; left != 0; left &= left - 1) {
+        const auto r = static_cast<std::size_t>(std::countr_zero(left));
+        const auto ux = static_cast<unsigned>(at.x),
+                   uy = static_cast<unsigned>(at.y) + static_cast<unsigned>(r);
+        const unsigned start = leafOf(ux, uy, 0) << 9 | voxelInLeaf(ux, uy, 0);
+        const V y = set(static_cast<float>(uy));
         const auto low = static_cast<unsigned>(first[r]);
         const auto voxels = static_cast<unsigned>(last[r]) - low + 1;
         for (unsigned i = 0; i < voxels; i += static_cast<unsigned>(hn::Lanes(d))) {
           const auto z = hn::Iota(du, low + i);
           const auto number =
-              hn::Or(hn::Set(du, start | r << 3),
+              hn::Or(hn::Set(du, start),
                      hn::Or(hn::ShiftLeft<9>(hn::ShiftRight<3>(z)), hn::And(z, hn::Set(du, 7U))));
           hn::StoreU(x, d, feet.x.data() + count + i);
           hn::StoreU(y, d, feet.y.data() + count + i);
@@ -263,7 +387,7 @@ void scan(const PolynomialCell& cell, const openvdb::Coord& binOrigin, std::uint
   const auto keptBits = hn::Set(du, signMask);
   const int z8First = rows.low[2] >> 3;
   const int z8Last = rows.high[2] >> 3;
-  PrismRows::Group first, last;
+  alignas(64) PrismRows::Group first, last;
   RowTerms terms;
   for (int x = rows.low[0]; x <= rows.high[0]; ++x) {
     const float fromCentre = static_cast<float>(x) - rows.centre[0];
@@ -271,7 +395,7 @@ void scan(const PolynomialCell& cell, const openvdb::Coord& binOrigin, std::uint
                                          Slice(cell.terms[1], fromCentre),
                                          Slice(cell.terms[2], fromCentre)};
     for (int y8 = rows.low[1] >> 3; y8 <= rows.high[1] >> 3; ++y8) {
-      rows.rowsAt(x, 8 * y8, first, last);
+      rowsAt(rows, x, 8 * y8, first, last);
       bool set8 = false;
       for (int z8 = z8First; z8 <= z8Last; ++z8) {
         const auto z0 = static_cast<float>(8 * z8);
@@ -319,6 +443,7 @@ namespace vox {
 namespace {
 
 HWY_EXPORT(solve);
+HWY_EXPORT(solveHeight);
 HWY_EXPORT(solveTriangle);
 HWY_EXPORT(gatherRows);
 HWY_EXPORT(scan);
@@ -341,6 +466,11 @@ void fillUp(Feet& feet) {
 void solveFeet(const NewtonCell& cell, const openvdb::Coord& binOrigin, Feet& feet) {
   fillUp(feet);
   HWY_DYNAMIC_DISPATCH(solve)(cell, shiftOf(cell.prism, binOrigin), feet);
+}
+
+void solveFeet(const HeightCell& cell, const openvdb::Coord& binOrigin, Feet& feet) {
+  fillUp(feet);
+  HWY_DYNAMIC_DISPATCH(solveHeight)(cell, shiftOf(cell.prism, binOrigin), feet);
 }
 
 void solveFeet(const TriangleCell& cell, const openvdb::Coord& binOrigin, Feet& feet) {

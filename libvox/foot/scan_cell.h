@@ -39,6 +39,8 @@ struct Feet {
 /// Finds the feet of the voxels within the cell: a, b in -1 .. 1, and t, the distance to the
 /// surface there. The same bits on every processor, and for voxels in any order.
 void solveFeet(const NewtonCell& cell, const openvdb::Coord& binOrigin, Feet& feet);
+/// The same for a height: a, b in voxels.
+void solveFeet(const HeightCell& cell, const openvdb::Coord& binOrigin, Feet& feet);
 /// The same for a triangle: a, b are the weights of its second and third point.
 void solveFeet(const TriangleCell& cell, const openvdb::Coord& binOrigin, Feet& feet);
 
@@ -54,9 +56,9 @@ void scanPolynomials(const PolynomialCell& cell, const openvdb::Coord& binOrigin
 /// Bits of the voxels of each leaf of a bin: bit y << 3 | z of word x.
 using BinMask = std::array<std::array<std::uint64_t, 8>, FootBrick::kLeaves>;
 
-/// Where a walk over the rows of a prism goes on: at rows y8 .. y8 + 7 of a slice.
+/// Where a walk over the rows of a prism goes on: at row y of slice x.
 struct RowsPlace {
-  int x, y8;
+  int x, y;
 };
 
 /// Adds voxels of a prism to `feet`, as many as there is place for, from `at` on.
@@ -73,7 +75,7 @@ void scanFeet(const Cell& cell, const openvdb::Coord& binOrigin, const BinMask* 
               Visit&& visit) {
   const PrismRows rows(cell.prism, binOrigin);
   if (rows.empty()) return;
-  RowsPlace at = {rows.low[0], rows.low[1] & ~7};
+  RowsPlace at = {rows.low[0], rows.low[1]};
   for (bool done = false; !done;) {
     feet.count = 0;
     done = gatherVoxels(rows, at, feet);

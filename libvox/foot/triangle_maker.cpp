@@ -97,7 +97,8 @@ void TriangleMaker::addTriangle(Index f, std::uint32_t owner, CellStore& store) 
   const Prism prism =
       prismAround(p, at, TriangleFrame(p, n), {beyond, beyond, reach + double{kMargin}});
   if (prism.box.empty()) return;
-  TriangleCell& cell = store.triangles.emplace_back();
+  const auto added = store.triangles.emplace_back();
+  TriangleCell& cell = *added;
   cell.prism = prism;
   cell.normal = asFloats(n);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -105,7 +106,7 @@ void TriangleMaker::addTriangle(Index f, std::uint32_t owner, CellStore& store) 
     cell.edgeNormals[i] = asFloats(edgeNormals_[mesh_.faceOffsets[f] + static_cast<Index>(i)]);
     cell.vertexNormals[i] = asFloats(vertexNormals_[face[i]]);
   }
-  store.bin(prism, owner, store.triangles.size() - 1, CellKind::kTriangle);
+  store.bin(prism, owner, added - store.triangles.begin(), CellKind::kTriangle);
 }
 
 }  // namespace vox

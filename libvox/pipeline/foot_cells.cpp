@@ -6,53 +6,119 @@
 #include "libvox/core/memory.h"
 #include "libvox/core/parallel.h"
 #include "libvox/core/progress.h"
+#include "libvox/foot/height_maker.h"
 #include "libvox/foot/triangle_maker.h"
 #include "libvox/grid/transform.h"
+#include "libvox/pipeline/joined_vertices.h"
 #include "libvox/pipeline/run_submeshes.h"
-#include "libvox/pipeline/whole_vertices.h"
 #include "libvox/subdivide/limit_walk.h"
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
 namespace vox {
 namespace {
 
-/// What one thread needs to make cells of pieces.
-struct CellWalk {
+/// A sink of pieces of one thread.
+struct PieceSink {
+  const CellOptions& options;
+  std::uint32_t firstOwner;
   CellStore& store;
-  LimitWalk walk;
   CellMaker maker;
-  std::unique_ptr<LimitSink> filter, joined;
-  std::vector<Index> faces, lastFaces;  // the walk still needs those of the last call
+  std::unique_ptr<LimitSink> filter;
 
-  /// @param whole  may be null
-  CellWalk(const SubdivisionLevel& base, const CellOptions& options, std::uint32_t firstOwner,
-           CellStore& cells, const PieceFilter& makeFilter, const WholeVertices* whole)
-      : store(cells), walk(base, options.tolerance), maker(options, firstOwner, cells) {
+  PieceSink(const CellOptions& cellOptions, std::uint32_t first, CellStore& cells,
+            const PieceFilter& makeFilter)
+      : options(cellOptions), firstOwner(first), store(cells), maker(options, firstOwner, cells) {
     if (makeFilter) filter = makeFilter(maker);
-    if (whole != nullptr) joined = std::make_unique<JoinedPieces>(*whole, filtered());
   }
 
-  LimitSink& filtered() { return filter ? *filter : maker; }
-
-  /// @param among  the faces to walk over, ascending; empty: all
-  void emit(std::span<const Index> submesh, const std::vector<Index>& among) {
-    LimitSink& sink = joined ? *joined : filtered();
-    if (among.empty() || among.size() == walk.base().mesh.faceCount())
-      return walk.emit(submesh, sink);
-    std::swap(faces, lastFaces);
-    faces.clear();
-    for (const Index f : submesh)
-      if (std::binary_search(among.begin(), among.end(), f)) faces.push_back(f);
-    if (faces.empty())
-      std::swap(faces, lastFaces);
-    else
-      walk.emit(faces, sink);
-  }
+  LimitSink& get() { return filter ? *filter : maker; }
 };
+
+/// Adds what stands for all corners at a vertex.
+/// @return whether its corners need no cells of their own
+bool addVertex(const JoinedVertices& vertices, std::span<const Index> corners, bool withHeights,
+               PieceSink& sink) {
+  if (sink.store.isFar(vertices.boxAround(corners), sink.options.reach)) return true;
+  if (const auto piece = vertices.pieceAt(corners)) {
+    sink.get().piece(*piece);
+    return true;
+  }
+  const CellOptions& options = sink.options;
+  if (!withHeights || !options.polynomials) return false;
+  const auto height = vertices.heightAt(corners, options.heightTolerance);
+  if (height)
+    addHeightCell(*height, options.reach, options.newtonStop, sink.firstOwner + corners[0],
+                  sink.store);
+  return height.has_value();
+}
+
+/// Adds the cells of small vertices in place of those of their corners.
+/// @param skipped       for each face, whether it is left out
+/// @param sinkOfThread  makes the sink of a thread
+/// @param account       account(before, store): told how the memory of a store has grown
+/// @return for each corner, whether its vertex has been added
+template <class SinkOfThread, class Account>
+std::vector<std::uint8_t> addVertices(const SubdivisionLevel& base,
+                                      const std::vector<std::uint8_t>& skipped, bool withHeights,
+                                      const SinkOfThread& sinkOfThread, const Account& account,
+                                      const Progress& progress) {
+  const JoinedVertices vertices(base);
+  std::vector<std::uint8_t> added(base.mesh.cornerCount(), 0);
+  tbb::enumerable_thread_specific<std::unique_ptr<PieceSink>> sinks(sinkOfThread);
+  constexpr std::size_t kCornersPerTask = 4096;
+  parallelForRanges(added.size(), kCornersPerTask, [&](std::size_t begin, std::size_t end) {
+    progress.check();
+    PieceSink& sink = *sinks.local();
+    const std::uint64_t before = sink.store.bytes();
+    std::vector<Index> corners;
+    for (std::size_t c = begin; c < end; ++c) {
+      if (skipped[base.adjacency.cornerFace[c]] != 0) continue;
+      if (!vertices.setCorners(static_cast<Index>(c), corners)) continue;
+      if (!addVertex(vertices, corners, withHeights, sink)) continue;
+      for (const Index corner : corners) added[corner] = 1;
+    }
+    account(before, sink.store);
+  });
+  return added;
+}
+
+/// Leaves out the pieces of some corners.
+class OtherPieces : public LimitSink {
+ public:
+  /// @param leftOut  by corner; empty: none
+  OtherPieces(const std::vector<std::uint8_t>& leftOut, LimitSink& next)
+      : leftOut_(leftOut), next_(next) {}
+  void piece(const LimitPiece& piece) override {
+    if (leftOut_.empty() || leftOut_[piece.square.corner] == 0) next_.piece(piece);
+  }
+
+ private:
+  const std::vector<std::uint8_t>& leftOut_;
+  LimitSink& next_;
+};
+
+/// For each face, whether all its corners are set, or it is not among some faces.
+/// @param corners  empty: none is set
+/// @param faces  ascending; empty: all
+std::vector<std::uint8_t> facesToSkip(const PolygonMesh& mesh, const std::vector<Index>& faces,
+                                      const std::vector<std::uint8_t>& corners) {
+  std::vector<std::uint8_t> skip(mesh.faceCount(), faces.empty() ? 0 : 1);
+  for (const Index f : faces) skip[f] = 0;
+  if (corners.empty()) return skip;
+  constexpr std::size_t kFacesPerTask = 4096;
+  parallelForEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
+    const auto begin = corners.begin() + mesh.faceOffsets[f];
+    if (std::all_of(begin, corners.begin() + mesh.faceOffsets[f + 1],
+                    [](std::uint8_t set) { return set != 0; }))
+      skip[f] = 1;
+  });
+  return skip;
+}
 
 }  // namespace
 
@@ -82,21 +148,39 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
   const double mostTolerance = kPartOfSize * usedBox(surface.base.mesh).longestSide();
   for (double* tolerance : {&cellOptions.tolerance.small, &cellOptions.tolerance.large})
     *tolerance = std::min(*tolerance, mostTolerance);
-  std::optional<WholeVertices> whole;
-  if (!options_.places) whole.emplace(surface.base);
-  const auto walkOfThread = [&] {
-    return std::make_unique<CellWalk>(surface.base, cellOptions, firstOwner,
-                                      *storeOfThread_.local(), filter, whole ? &*whole : nullptr);
+  const SubdivisionLevel& base = surface.base;
+  const auto sinkOfThread = [&] {
+    return std::make_unique<PieceSink>(cellOptions, firstOwner, *storeOfThread_.local(), filter);
   };
-  Submeshes submeshes = cutIntoSubmeshes(surface.base, surface.options);
+  std::vector<std::uint8_t> joined;  // by corner; empty: none
+  std::vector<std::uint8_t> skipped = facesToSkip(base.mesh, faces, joined);
+  if (!options_.places) {
+    joined = addVertices(
+        base, skipped, !filter, sinkOfThread,
+        [&](std::uint64_t before, const CellStore& store) { account(before, store); }, progress);
+    skipped = facesToSkip(base.mesh, faces, joined);
+  }
+  Submeshes submeshes = cutIntoSubmeshes(base, surface.options, skipped);
   // A band needs all cells, unless it is told otherwise: sides of voxels follow from those of
   // others.
   skipFarFrom(options_.places ? surface.region : region_, double{options_.reach} + 1, submeshes);
+  struct Walk {
+    std::unique_ptr<PieceSink> cells;
+    OtherPieces others;
+    LimitWalk walk;
+  };
+  const auto walkOfThread = [&] {
+    std::unique_ptr<PieceSink> cells = sinkOfThread();
+    LimitSink& sink = cells->get();
+    return std::make_unique<Walk>(std::move(cells), OtherPieces(joined, sink),
+                                  LimitWalk(base, cellOptions.tolerance));
+  };
   runSubmeshes(submeshes, progress, part, walkOfThread,
-               [&](const std::unique_ptr<CellWalk>& walk, const SubmeshTask& task) {
-                 const std::uint64_t before = walk->store.bytes();
-                 walk->emit(task.faces, faces);
-                 account(before, walk->store);
+               [&](const std::unique_ptr<Walk>& walk, const SubmeshTask& task) {
+                 CellStore& store = walk->cells->store;
+                 const std::uint64_t before = store.bytes();
+                 walk->walk.emit(task.faces, walk->others);
+                 account(before, store);
                });
 }
 
