@@ -151,7 +151,6 @@ class PieceLevel {
           part.mesh.points.push_back(at(c));
         }
         part.mesh.faceVertices.push_back(v);
-        part.adjacency.cornerFace.push_back(part.mesh.faceCount());
       }
       part.mesh.faceOffsets.push_back(part.mesh.cornerCount());
     }
@@ -160,6 +159,7 @@ class PieceLevel {
       const Index twin = adjacency().twin[c];
       part.adjacency.twin.push_back(twin == kNone ? kNone : newCorner[twin]);
     }
+    part.adjacency.cornerFace = CornerFaces(part.mesh);
     return part;
   }
 

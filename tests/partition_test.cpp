@@ -39,7 +39,7 @@ std::vector<Index> submeshOfFaces(const Partition& partition) {
 double innerPart(const Adjacency& adjacency, const std::vector<Index>& submesh) {
   double inner = 0;
   double all = 0;
-  for (std::size_t c = 0; c < adjacency.twin.size(); ++c) {
+  for (Index c = 0; c < static_cast<Index>(adjacency.twin.size()); ++c) {
     if (adjacency.twin[c] == kNone) continue;
     all += 1;
     const Index here = submesh[adjacency.cornerFace[c]];

@@ -204,7 +204,7 @@ TEST_CASE("faces without area stay", "[repair]") {
 TEST_CASE("two tetrahedra that share a vertex come apart there", "[repair]") {
   const auto out = repaired(test::bowTie());
   CHECK(out.mesh.pointCount() == 8);
-  CHECK(out.report.pointOrigin.back() == 0);
+  CHECK(out.report.pointOrigin.list().back() == 0);
   CHECK(summary(out.report) == "split 1 vertex");
   CHECK(out.report[RepairKind::kSplitVertex].message ==
         "split vertex 0, which joins several fans of faces");
@@ -375,7 +375,7 @@ TEST_CASE("the report names input elements, and says where the output comes from
   CHECK(out.report[RepairKind::kDegenerateFace].message ==
         "dropped face 6, which has fewer than 3 distinct corners");
   REQUIRE(out.report.faceOrigin.size() == out.mesh.faceCount());
-  CHECK(out.report.faceOrigin.back() == 7);
+  CHECK(out.report.faceOrigin.list().back() == 7);
   REQUIRE(out.report.pointOrigin.size() == out.mesh.pointCount());
   for (Index v = 0; v < out.mesh.pointCount(); ++v)
     CHECK(out.mesh.points[v] == mesh.points[out.report.pointOrigin[v]]);

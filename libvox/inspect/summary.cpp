@@ -111,7 +111,7 @@ MeshSummary summarize(const PolygonMesh& mesh) {
   summary.faces = mesh.faceCount();
   summary.box = usedBox(mesh);
   for (Index f = 0; f < mesh.faceCount(); ++f) ++summary.faceSizes[mesh.faceSize(f)];
-  const std::vector<EdgeCorner> edges = cornersByEdge(mesh, adjacency);
+  const std::vector<EdgeCorner> edges = cornersByEdge(mesh);
   findComponents(mesh, adjacency, edges, summary);
   countValences(mesh, edges, summary);
   measureBoundary(mesh, edges, summary);

@@ -10,8 +10,8 @@
 
 namespace vox {
 
-std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& adjacency) {
-  const EdgeRanges ranges(mesh, adjacency);
+std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh) {
+  const EdgeRanges ranges(mesh);
   std::vector<std::vector<EdgeCorner>> sorted(ranges.size());
   parallelForEach(ranges.size(), 1, [&](Index range) { sorted[range] = ranges.corners(range); });
   std::vector<EdgeCorner> edges;
@@ -21,19 +21,23 @@ std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& 
   return edges;
 }
 
-Adjacency separateFaces(const PolygonMesh& mesh) {
-  Adjacency adjacency{std::vector<Index>(mesh.cornerCount(), kNone),
-                      std::vector<Index>(mesh.cornerCount())};
-  parallelForEach(mesh.faceCount(), kElementsPerTask, [&](Index f) {
-    std::fill(adjacency.cornerFace.begin() + mesh.faceOffsets[f],
-              adjacency.cornerFace.begin() + mesh.faceOffsets[f + 1], f);
+CornerFaces::CornerFaces(const PolygonMesh& mesh) {
+  const Index count = mesh.faceCount();
+  const auto isElsewhere = [&](Index f) { return mesh.faceOffsets[f + 1] != 3 * (f + 1); };
+  if (lowestWhere(count, kElementsPerTask, isElsewhere) == count) return;
+  faces_.resize(mesh.cornerCount());
+  parallelForEach(count, kElementsPerTask, [&](Index f) {
+    std::fill(faces_.begin() + mesh.faceOffsets[f], faces_.begin() + mesh.faceOffsets[f + 1], f);
   });
-  return adjacency;
+}
+
+Adjacency separateFaces(const PolygonMesh& mesh) {
+  return {std::vector<Index>(mesh.cornerCount(), kNone), CornerFaces(mesh)};
 }
 
 Adjacency buildAdjacency(const PolygonMesh& mesh) {
   Adjacency adjacency = separateFaces(mesh);
-  forEachEdgeInParallel(mesh, adjacency, [&](std::span<const EdgeCorner> edge) {
+  forEachEdgeInParallel(mesh, [&](std::span<const EdgeCorner> edge) {
     if (edge.size() != 2 || edge[0].low == edge[0].high) return;
     const Index a = edge[0].corner;
     const Index b = edge[1].corner;

@@ -3,15 +3,31 @@
 #include "libvox/mesh/polygon_mesh.h"
 
 #include <compare>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace vox {
 
+/// The face of each corner of a mesh. Takes no memory if all faces are triangles.
+class CornerFaces {
+ public:
+  CornerFaces() = default;
+  explicit CornerFaces(const PolygonMesh& mesh);
+
+  Index operator[](Index corner) const { return faces_.empty() ? corner / 3 : faces_[corner]; }
+  bool areTriangles() const { return faces_.empty(); }
+  std::uint64_t bytes() const { return faces_.size() * sizeof(Index); }
+  bool operator==(const CornerFaces&) const = default;
+
+ private:
+  std::vector<Index> faces_;  // empty: triangles
+};
+
 /// Neighbours of the corners of a mesh; both arrays have one slot per corner.
 struct Adjacency {
-  std::vector<Index> twin;        ///< corner of the neighbouring face on the same edge, or kNone
-  std::vector<Index> cornerFace;  ///< face of the corner
+  std::vector<Index> twin;  ///< corner of the neighbouring face on the same edge, or kNone
+  CornerFaces cornerFace;   ///< face of the corner
 };
 
 /// Adjacency of a mesh whose faces have at least 3 corners.
@@ -25,7 +41,7 @@ struct Adjacency {
 /// count.
 Adjacency buildAdjacency(const PolygonMesh& mesh);
 
-/// Adjacency with the face of each corner, but without any twins. Cost O(C).
+/// Adjacency without any twins. Cost O(C).
 Adjacency separateFaces(const PolygonMesh& mesh);
 
 /// A corner and the undirected edge that starts at it.
@@ -38,7 +54,7 @@ struct EdgeCorner {
 
 /// All corners sorted by edge, then by corner, so that the corners on one edge stand together.
 /// Parallel.
-std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh, const Adjacency& adjacency);
+std::vector<EdgeCorner> cornersByEdge(const PolygonMesh& mesh);
 
 /// Calls visit(span of EdgeCorner) for each edge of a list from cornersByEdge. Serial.
 template <class Visit>
@@ -54,10 +70,12 @@ void forEachEdge(std::span<const EdgeCorner> corners, Visit&& visit) {
 /// Next and previous corner in the same face.
 inline Index nextCorner(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
   const Index f = adjacency.cornerFace[c];
+  if (adjacency.cornerFace.areTriangles()) return c == 3 * f + 2 ? 3 * f : c + 1;
   return c + 1 == mesh.faceOffsets[f + 1] ? mesh.faceOffsets[f] : c + 1;
 }
 inline Index previousCorner(const PolygonMesh& mesh, const Adjacency& adjacency, Index c) {
   const Index f = adjacency.cornerFace[c];
+  if (adjacency.cornerFace.areTriangles()) return c == 3 * f ? c + 2 : c - 1;
   return c == mesh.faceOffsets[f] ? mesh.faceOffsets[f + 1] - 1 : c - 1;
 }
 

@@ -11,22 +11,22 @@ namespace vox {
 /// the other. Takes less memory, and each range stays in a cache.
 class EdgeRanges {
  public:
-  EdgeRanges(const PolygonMesh& mesh, const Adjacency& adjacency);
+  explicit EdgeRanges(const PolygonMesh& mesh);
 
-  Index size() const { return corners_.size(); }
+  Index size() const { return runs_.size(); }
   /// Corners of the edges whose lower vertices are in range number `range`. Thread-safe.
   std::vector<EdgeCorner> corners(Index range) const;
 
  private:
   const PolygonMesh& mesh_;
-  const Adjacency& adjacency_;
-  Buckets<Index> corners_;
+  Index facesPerRun_;
+  Buckets<Index> runs_;  ///< for each range, the runs of faces that have edges in it
 };
 
 /// Calls visit(span of EdgeCorner) for each edge of a mesh, once, from any thread.
 template <class Visit>
-void forEachEdgeInParallel(const PolygonMesh& mesh, const Adjacency& adjacency, Visit&& visit) {
-  const EdgeRanges ranges(mesh, adjacency);
+void forEachEdgeInParallel(const PolygonMesh& mesh, Visit&& visit) {
+  const EdgeRanges ranges(mesh);
   parallelForEach(ranges.size(), 1, [&](Index range) {
     const std::vector<EdgeCorner> corners = ranges.corners(range);
     forEachEdge(corners, visit);

@@ -157,7 +157,7 @@ std::vector<Defect> findDefects(const PolygonMesh& mesh, const Adjacency& adjace
                                 std::size_t mostPerKind) {
   DefectList defects(mostPerKind);
   findRepeatedCorners(mesh, defects);
-  const std::vector<EdgeCorner> edges = cornersByEdge(mesh, adjacency);
+  const std::vector<EdgeCorner> edges = cornersByEdge(mesh);
   findEdgeDefects(edges, adjacency, defects);
   findVertexDefects(countFans(mesh, edges, adjacency), defects);
   return defects.take();

@@ -88,8 +88,8 @@ std::string ImageReader::hashWith(const std::string& inputHash) const {
 }
 
 SurfaceLook lookOf(const SceneObject& object, const std::optional<TextureSpec>& texture,
-                   const std::vector<Index>& faceOrigin, std::vector<Vec2f> texcoords,
-                   ImageReader& images, std::vector<std::string>& warnings) {
+                   const Origins& faceOrigin, std::vector<Vec2f> texcoords, ImageReader& images,
+                   std::vector<std::string>& warnings) {
   SurfaceLook look;
   look.texcoords = std::move(texcoords);
   const std::vector<std::string>& problems = object.reading.materialProblems;
@@ -108,7 +108,8 @@ SurfaceLook lookOf(const SceneObject& object, const std::optional<TextureSpec>& 
   const MeshAttributes& attributes = object.mesh.attributes;
   if (attributes.looks.empty() || attributes.materials.empty()) return look;
   look.looks = looksOf(object, images, warnings);
-  for (const Index f : faceOrigin) look.lookOfFace.push_back(attributes.materials.ofFaces[f]);
+  for (Index f = 0; f < faceOrigin.size(); ++f)
+    look.lookOfFace.push_back(attributes.materials.ofFaces[faceOrigin[f]]);
   const bool hasImages = std::any_of(look.looks.begin(), look.looks.end(),
                                      [](const Look& one) { return one.image.has_value(); });
   if (hasImages && look.texcoords.empty())

@@ -47,7 +47,7 @@ class ImageReader {
 /// @param warnings    one line if images of materials cannot be read, or are of no use
 /// @throws InputError  the image of the texture cannot be read
 SurfaceLook lookOf(const SceneObject& object, const std::optional<TextureSpec>& texture,
-                   const std::vector<Index>& faceOrigin, std::vector<Vec2f> texcoords,
-                   ImageReader& images, std::vector<std::string>& warnings);
+                   const Origins& faceOrigin, std::vector<Vec2f> texcoords, ImageReader& images,
+                   std::vector<std::string>& warnings);
 
 }  // namespace vox

@@ -103,7 +103,8 @@ PreparedSurface prepareObject(const Scene& scene, const Request& all, std::size_
     surface.look = lookOf(object, request.texture, prepared.faceOrigin,
                           std::move(prepared.texcoords), images, report.warnings);
   if (!parts.names.empty())
-    for (const Index f : prepared.faceOrigin) surface.partOfFace.push_back(parts.ofFaces[i][f]);
+    for (Index f = 0; f < prepared.faceOrigin.size(); ++f)
+      surface.partOfFace.push_back(parts.ofFaces[i][prepared.faceOrigin[f]]);
   return surface;
 }
 

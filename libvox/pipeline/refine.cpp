@@ -40,9 +40,9 @@ auto namingObject(const Scene& scene, const SceneObject& object, Work&& work) {
 
 /// The elements of the input that those of a prepared mesh come from.
 struct ElementOrigin {
-  std::vector<Index> weldedTo;  ///< for each input vertex: the one that it was welded to, or itself
-  std::vector<Index> points;    ///< for each prepared vertex: an input vertex, or kNone
-  std::vector<Index> faces;     ///< for each prepared face: an input face
+  Origins weldedTo;  ///< for each input vertex: the one that it was welded to, or itself
+  Origins points;    ///< for each prepared vertex: an input vertex, or kNone
+  Origins faces;     ///< for each prepared face: an input face
 };
 
 /// Warns of what reading the file of an object has lost. Strict: refuses a file that is odd at all.
@@ -95,14 +95,6 @@ PolygonMesh keptMeshOf(const SceneObject& object, const ObjectPreparation& prepa
         " and a box whose diagonal is " + exactNumber(report.largestDiagonal) +
         "; lower the limits of --drop-components");
   return kept;
-}
-
-/// The origin of elements that were made in two steps.
-std::vector<Index> composed(const std::vector<Index>& first, const std::vector<Index>& second) {
-  std::vector<Index> both(second.size(), kNone);
-  for (std::size_t i = 0; i < second.size(); ++i)
-    if (second[i] < first.size()) both[i] = first[second[i]];
-  return both;
 }
 
 /// The mesh of an object made sound, and its adjacency; a warning tells what was done to it.
@@ -294,7 +286,8 @@ std::uint64_t bytesOf(const PolygonMesh& mesh) {
 }
 
 std::uint64_t bytesOf(const SubdivisionLevel& level) {
-  return bytesOf(level.mesh) + std::uint64_t{level.mesh.cornerCount()} * 2 * sizeof(Index);
+  return bytesOf(level.mesh) + level.adjacency.twin.size() * sizeof(Index) +
+         level.adjacency.cornerFace.bytes();
 }
 
 std::uint64_t bytesOfImage(const SubdivisionLevel& level) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/core/origins.h"
 #include "libvox/grid/transform.h"
 #include "libvox/io/scene_file.h"
 #include "libvox/mesh/polygon_mesh.h"
@@ -45,8 +46,8 @@ struct PreparedObject {
   CreaseCounts creases;
   InterpolationReport interpolation;
   std::vector<std::string> warnings;
-  std::vector<Index> faceOrigin;  ///< per face: the face of the object's mesh
-  std::vector<Vec2f> texcoords;   ///< per corner, if they follow; or empty
+  Origins faceOrigin;            ///< per face: the face of the object's mesh
+  std::vector<Vec2f> texcoords;  ///< per corner, if they follow; or empty
 };
 
 /// Prepares the objects of a scene, one after the other, for so many Doo-Sabin steps, and hands

@@ -19,12 +19,12 @@ Forest componentsOfInput(const PolygonMesh& mesh, const RepairOptions& options) 
   RepairReport report;
   PolygonMesh repaired = repair(mesh, options, report);
   for (Index& v : repaired.faceVertices) v = report.pointOrigin[v];  // copies are one vertex again
-  const Adjacency faces = separateFaces(repaired);
+  const CornerFaces faces(repaired);
   const auto origin = [&](const EdgeCorner& corner) {
-    return report.faceOrigin[faces.cornerFace[corner.corner]];
+    return report.faceOrigin[faces[corner.corner]];
   };
   Forest components(mesh.faceCount());
-  forEachEdge(cornersByEdge(repaired, faces), [&](std::span<const EdgeCorner> edge) {
+  forEachEdge(cornersByEdge(repaired), [&](std::span<const EdgeCorner> edge) {
     for (const EdgeCorner& corner : edge) components.unite(origin(edge[0]), origin(corner));
   });
   return components;

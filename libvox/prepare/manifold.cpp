@@ -152,26 +152,24 @@ std::vector<Index> fanOf(const PolygonMesh& mesh, const Adjacency& joints, Index
 bool isLowestOfFan(const PolygonMesh& mesh, const Adjacency& joints, Index c) {
   FanWalk first(mesh, joints, c, true);
   FanWalk second(mesh, joints, c, false);
-  Index left = first.next();
-  Index right = second.next();
-  for (;;) {
-    if (left == c || right == c || (left == kNone && right == kNone)) return true;
-    if (left < c || right < c) return false;
+  for (Index left = c, right = c; left != kNone || right != kNone;) {
     if (left != kNone) left = first.next();
+    if (left <= c) return left == c;
     if (right != kNone) right = second.next();
+    if (right <= c) return right == c;
   }
+  return true;
 }
 
-/// For each vertex, whether it has several fans.
-std::vector<std::uint8_t> verticesOfSeveralFans(const PolygonMesh& mesh, const Adjacency& joints) {
-  std::vector<std::uint8_t> fans(mesh.pointCount(), 0);  // none, one, several
+/// For each vertex, how many fans it has: 0, 1, or 2 for several.
+std::vector<std::uint8_t> fanCounts(const PolygonMesh& mesh, const Adjacency& joints) {
+  std::vector<std::uint8_t> fans(mesh.pointCount(), 0);
   parallelForEach(mesh.cornerCount(), kElementsPerTask, [&](Index c) {
     if (!isLowestOfFan(mesh, joints, c)) return;
     std::atomic_ref<std::uint8_t> known(fans[mesh.faceVertices[c]]);
     std::uint8_t none = 0;
     if (!known.compare_exchange_strong(none, 1)) known.store(2);
   });
-  for (std::uint8_t& several : fans) several = several == 2;
   return fans;
 }
 
@@ -184,11 +182,11 @@ struct SharedFan {
 
 /// The fans that need a vertex of their own, sorted: at each vertex, all but the lowest.
 std::vector<SharedFan> furtherFans(const PolygonMesh& mesh, const Adjacency& joints) {
-  const std::vector<std::uint8_t> several = verticesOfSeveralFans(mesh, joints);
+  const std::vector<std::uint8_t> fans = fanCounts(mesh, joints);
   std::vector<SharedFan> shared;
-  if (std::find(several.begin(), several.end(), 1) == several.end()) return shared;
+  if (std::find(fans.begin(), fans.end(), 2) == fans.end()) return shared;
   for (Index c = 0; c < mesh.cornerCount(); ++c)
-    if (several[mesh.faceVertices[c]] && isLowestOfFan(mesh, joints, c))
+    if (fans[mesh.faceVertices[c]] > 1 && isLowestOfFan(mesh, joints, c))
       shared.push_back({mesh.faceVertices[c], c});
   std::sort(shared.begin(), shared.end());
   std::vector<SharedFan> further;
@@ -203,7 +201,7 @@ Joints joinFaces(const PolygonMesh& mesh, CrowdedEdge crowded) {
   Joints joints{separateFaces(mesh), {}};
   std::vector<EdgeCorner> crowdedCorners;
   std::mutex lock;
-  forEachEdgeInParallel(mesh, joints.adjacency, [&](std::span<const EdgeCorner> edge) {
+  forEachEdgeInParallel(mesh, [&](std::span<const EdgeCorner> edge) {
     if (edge.size() == 2) {
       joints.adjacency.twin[edge[0].corner] = edge[1].corner;
       joints.adjacency.twin[edge[1].corner] = edge[0].corner;

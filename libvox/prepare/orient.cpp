@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -35,9 +36,10 @@ struct Component {
 };
 
 struct Components {
-  std::vector<Index> faces;            ///< component after component, each in ascending order
-  std::vector<std::uint8_t> reversed;  ///< per face: wound against the lowest of its component
-  std::vector<Component> list;         ///< by lowest face
+  std::vector<Index> faces;  ///< component after component, each in ascending order
+  /// Per face: wound against the lowest of its component. Empty: none is.
+  std::vector<std::uint8_t> reversed;
+  std::vector<Component> list;  ///< by lowest face
 
   std::span<const Index> facesOf(const Component& component) const {
     return std::span(faces).subspan(component.begin, component.end - component.begin);
@@ -76,46 +78,85 @@ Forest sidesOf(const PolygonMesh& mesh, const Adjacency& joints) {
   return sides;
 }
 
+/// The connected faces in sets.
+Forest connectedFaces(const PolygonMesh& mesh, const Adjacency& joints) {
+  Forest faces(mesh.faceCount());
+  parallelForEach(mesh.cornerCount(), kElementsPerTask, [&](Index c) {
+    const Index t = joints.twin[c];
+    if (t != kNone && c < t) faces.unite(joints.cornerFace[c], joints.cornerFace[t]);
+  });
+  return faces;
+}
+
+bool areWoundConsistently(const PolygonMesh& mesh, const Adjacency& joints) {
+  const auto isWrong = [&](Index c) {
+    return joints.twin[c] != kNone && isAgainst(mesh, joints, c);
+  };
+  return lowestWhere(mesh.cornerCount(), kElementsPerTask, isWrong) == mesh.cornerCount();
+}
+
 /// @param numbers  for each face, its component
 /// @param count    number of components
 std::vector<Index> sortedByComponent(const std::vector<Index>& numbers, std::size_t count,
                                      std::vector<Component>& list) {
   std::vector<Index> faces = numbered(numbers.size());
+  if (count == 1) {
+    list.push_back({0, numbers.size()});
+    return faces;
+  }
   std::vector<std::size_t> place(count + 1, 0);
   for (const Index n : numbers) ++place[n + 1];
   std::partial_sum(place.begin(), place.end(), place.begin());
   for (std::size_t n = 0; n < count; ++n) list.push_back({place[n], place[n + 1]});
-  if (count > 1)
-    for (Index f = 0; f < faces.size(); ++f) faces[place[numbers[f]]++] = f;
+  for (Index f = 0; f < faces.size(); ++f) faces[place[numbers[f]]++] = f;
   return faces;
 }
 
-Components findComponents(const PolygonMesh& mesh, const Adjacency& joints) {
-  Forest sides = sidesOf(mesh, joints);
-  const Index faces = mesh.faceCount();
-  Components out;
-  out.reversed.resize(faces);
-  std::vector<Index> number(faces);  // first the lowest face, then the number of the component
-  std::vector<std::uint8_t> isOneSided(faces, 0);
-  std::vector<std::uint8_t> isOpen(faces, 0);
-  parallelForEach(faces, kElementsPerTask, [&](Index f) {
-    const Index root = sides.find(2 * f);
-    out.reversed[f] = root & 1U;
-    number[f] = root / 2;
-    isOneSided[f] = sides.find(2 * f + 1) == root;
-    const auto begin = joints.twin.begin() + mesh.faceOffsets[f];
-    const auto end = joints.twin.begin() + mesh.faceOffsets[f + 1];
-    isOpen[f] = std::find(begin, end, kNone) != end;
-  });
+/// Renumbers components by their lowest faces.
+/// @param number  for each face, the lowest face of its component; then the number of the component
+/// @return        number of components
+Index numberComponents(std::vector<Index>& number) {
+  const auto faces = static_cast<Index>(number.size());
+  const auto isElsewhere = [&](Index f) { return number[f] != 0; };
+  if (faces > 0 && lowestWhere(faces, kElementsPerTask, isElsewhere) == faces) return 1;
   Index count = 0;
   for (Index f = 0; f < faces; ++f) number[f] = number[f] == f ? count++ : number[number[f]];
-  out.faces = sortedByComponent(number, count, out.list);
-  for (Index f = 0; f < faces; ++f) {
-    Component& component = out.list[number[f]];
-    component.against += out.reversed[f];
-    component.boundary |= isOpen[f] != 0;
-    component.oneSided |= isOneSided[f] != 0;
-  }
+  return count;
+}
+
+/// Marks the component of each face with test(face).
+template <class Test>
+void markComponents(const std::vector<Index>& number, std::vector<Component>& list,
+                    bool Component::*mark, Test&& test) {
+  parallelForEach(static_cast<Index>(number.size()), kElementsPerTask, [&](Index f) {
+    if (!test(f)) return;
+    std::atomic_ref<bool> marked(list[number[f]].*mark);
+    if (!marked.load(std::memory_order_relaxed)) marked.store(true, std::memory_order_relaxed);
+  });
+}
+
+Components findComponents(const PolygonMesh& mesh, const Adjacency& joints) {
+  const Index faces = mesh.faceCount();
+  const bool consistent = areWoundConsistently(mesh, joints);
+  Forest sets = consistent ? connectedFaces(mesh, joints) : sidesOf(mesh, joints);
+  Components out;
+  if (!consistent) out.reversed.resize(faces);
+  std::vector<Index> number(faces);
+  parallelForEach(faces, kElementsPerTask, [&](Index f) {
+    const Index root = sets.find(consistent ? f : 2 * f);
+    number[f] = consistent ? root : root / 2;
+    if (!consistent) out.reversed[f] = root & 1U;
+  });
+  out.faces = sortedByComponent(number, numberComponents(number), out.list);
+  markComponents(number, out.list, &Component::boundary, [&](Index f) {
+    const auto begin = joints.twin.begin() + mesh.faceOffsets[f];
+    const auto end = joints.twin.begin() + mesh.faceOffsets[f + 1];
+    return std::find(begin, end, kNone) != end;
+  });
+  if (consistent) return out;
+  markComponents(number, out.list, &Component::oneSided,
+                 [&](Index f) { return sets.find(2 * f) == sets.find(2 * f + 1); });
+  for (Index f = 0; f < faces; ++f) out.list[number[f]].against += out.reversed[f];
   return out;
 }
 
@@ -189,7 +230,9 @@ void countComponents(const Components& components, OrientReport& report) {
 }
 
 /// Flips faces, and moves the joints to the new corners of their edges.
+/// @param isFlipped  per face; empty: none is
 void flipFaces(PolygonMesh& mesh, Adjacency& joints, const std::vector<std::uint8_t>& isFlipped) {
+  if (std::find(isFlipped.begin(), isFlipped.end(), 1) == isFlipped.end()) return;
   // In reverse, the corner before an edge is the one that was behind it.
   const auto moved = [&](Index c) {
     const Index f = joints.cornerFace[c];
@@ -212,23 +255,21 @@ void flipFaces(PolygonMesh& mesh, Adjacency& joints, const std::vector<std::uint
 /// Winds all faces of each component like its lowest one, then turns components as a whole.
 void turnComponents(PolygonMesh& mesh, Adjacency& joints, const Components& components,
                     OrientReport& report) {
-  std::vector<std::uint8_t> flipped = components.reversed;
-  const auto flipThem = [&] {
-    if (std::find(flipped.begin(), flipped.end(), 1) != flipped.end())
-      flipFaces(mesh, joints, flipped);
-  };
-  flipThem();
+  flipFaces(mesh, joints, components.reversed);
   std::vector<std::uint8_t> turn;  // decided before any turn: cavities depend on other components
   CavitySearch cavities(mesh, components);
   for (const Component& component : components.list)
     turn.push_back(mustTurn(mesh, components, component, cavities, report));
-  std::fill(flipped.begin(), flipped.end(), std::uint8_t{0});
+  const bool noneTurns = std::find(turn.begin(), turn.end(), 1) == turn.end();
+  if (noneTurns && components.reversed.empty()) return;
+  std::vector<std::uint8_t> flipped(mesh.faceCount(), 0);
   for (std::size_t k = 0; k < turn.size(); ++k)
     if (turn[k])
       for (const Index f : components.facesOf(components.list[k])) flipped[f] = 1;
-  flipThem();
+  flipFaces(mesh, joints, flipped);
   for (Index f = 0; f < mesh.faceCount(); ++f) {
-    if (components.reversed[f] == flipped[f]) continue;
+    const bool wasReversed = !components.reversed.empty() && components.reversed[f];
+    if (wasReversed == (flipped[f] != 0)) continue;
     ++report.flippedFaces;
     report.firstFlipped = std::min(report.firstFlipped, f);
   }
@@ -253,7 +294,7 @@ class DoubleCover {
     addMirrorFaces();
     for (const Index f : covered_)
       for (Index c = mesh_.faceOffsets[f]; c < mesh_.faceOffsets[f + 1]; ++c) joinCopies(c);
-    for (const Index v : splitFans(mesh_, joints_)) report_.pointOrigin.push_back(v);
+    for (const Index v : splitFans(mesh_, joints_)) report_.pointOrigin.add(v);
     startFacesAtLowest(mesh_);
     joints_ = buildAdjacency(mesh_);
   }
@@ -275,10 +316,10 @@ class DoubleCover {
       std::vector<Index> mirrored(face.begin(), face.end());
       flip(mirrored);
       joints_.twin.resize(joints_.twin.size() + mirrored.size(), kNone);
-      joints_.cornerFace.resize(joints_.twin.size(), mirrorFace_[f]);
       mesh_.addFace(mirrored);
-      report_.faceOrigin.push_back(f);
+      report_.faceOrigin.add(f);
     }
+    joints_.cornerFace = CornerFaces(mesh_);
   }
 
   /// The corner of the mirrored face on the edge of corner c.
@@ -325,8 +366,8 @@ std::string summary(const OrientReport& report) {
 PolygonMesh orient(PolygonMesh mesh, Adjacency joints, OrientReport& report) {
   report = OrientReport{};
   report.secondSide = mesh.faceCount();
-  report.pointOrigin = numbered(mesh.pointCount());
-  report.faceOrigin = numbered(mesh.faceCount());
+  report.pointOrigin = Origins(mesh.pointCount());
+  report.faceOrigin = Origins(mesh.faceCount());
   const Components components = findComponents(mesh, joints);
   countComponents(components, report);
   turnComponents(mesh, joints, components, report);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/core/origins.h"
 #include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/polygon_mesh.h"
 
@@ -20,9 +21,9 @@ struct OrientReport {
   /// First face of the output that belongs to the second side of a one-sided component; so do all
   /// faces after it.
   Index secondSide = 0;
-  std::vector<Index> pointOrigin;  ///< input point of each point of the output
-  std::vector<Index> faceOrigin;   ///< input face of each face of the output
-  Adjacency adjacency;             ///< of the output
+  Origins pointOrigin;  ///< input point of each point of the output
+  Origins faceOrigin;   ///< input face of each face of the output
+  Adjacency adjacency;  ///< of the output
 };
 
 /// Summary in one line: "flipped 12 faces, doubled 1 one-sided component (face 0)"; empty if

@@ -3,7 +3,6 @@
 
 #include "libvox/prepare/repair.h"
 
-#include "libvox/core/numbered.h"
 #include "libvox/core/parallel.h"
 #include "libvox/mesh/spatial_order.h"
 #include "libvox/mesh/star_shaped.h"
@@ -35,8 +34,8 @@ std::string str(std::size_t n) {
 /// The mesh between two steps, and the elements of the input from which its elements come.
 struct Draft {
   PolygonMesh mesh;
-  std::vector<Index> pointOrigin;
-  std::vector<Index> faceOrigin;
+  Origins pointOrigin;
+  Origins faceOrigin;
   std::vector<bool> dispensable;  // per input point: not missed if the output lacks it
 };
 
@@ -59,8 +58,9 @@ std::vector<std::uint8_t> usedPoints(const PolygonMesh& mesh) {
 }
 
 void weld(Draft& draft, double tolerance, RepairReport& report) {
-  std::vector<Index>& weldedTo = report.weldedTo;
-  weldedTo = weldTargets(draft.mesh.points, usedPoints(draft.mesh), tolerance);
+  report.weldedTo = weldTargets(draft.mesh.points, usedPoints(draft.mesh), tolerance);
+  const Origins& weldedTo = report.weldedTo;
+  if (weldedTo.areTheSame()) return;
   const Index count = draft.mesh.pointCount();
   const Index first =
       lowestWhere(count, kElementsPerTask, [&](Index v) { return weldedTo[v] != v; });
@@ -204,6 +204,7 @@ std::vector<std::uint8_t> concaveFaces(const PolygonMesh& mesh, bool allConvex) 
 
 /// @return whether there were concave faces
 bool splitConcaveFaces(Draft& draft, bool allConvex, RepairReport& report) {
+  if (draft.mesh.cornerCount() == std::size_t{3} * draft.mesh.faceCount()) return false;
   const std::vector<std::uint8_t> concave = concaveFaces(draft.mesh, allConvex);
   if (std::find(concave.begin(), concave.end(), 1) == concave.end()) return false;
   PolygonMesh split;
@@ -230,7 +231,7 @@ void putInOrder(Draft& draft) {
   if (!isScattered(draft.mesh)) return;
   const PolygonMesh old = std::exchange(draft.mesh, {});
   PolygonMesh& mesh = draft.mesh;
-  const std::vector<Index> points = spatialOrder(old.points);
+  std::vector<Index> points = spatialOrder(old.points);
   std::vector<Index> newName(points.size());
   mesh.points.resize(points.size());
   parallelForEach(static_cast<Index>(points.size()), kElementsPerTask, [&](Index v) {
@@ -253,12 +254,11 @@ void putInOrder(Draft& draft) {
     Index c = mesh.faceOffsets[g];
     for (const Index v : old.face(faces[g].second)) mesh.faceVertices[c++] = newName[v];
   });
-  for (Index v = 0; v < points.size(); ++v) newName[v] = draft.pointOrigin[points[v]];
-  draft.pointOrigin = std::move(newName);
-  std::vector<Index> faceOrigin;
-  faceOrigin.reserve(faces.size());
-  for (const auto& [lowest, f] : faces) faceOrigin.push_back(draft.faceOrigin[f]);
-  draft.faceOrigin = std::move(faceOrigin);
+  draft.pointOrigin = composed(draft.pointOrigin, std::move(points));
+  std::vector<Index> order;
+  order.reserve(faces.size());
+  for (const auto& [lowest, f] : faces) order.push_back(f);
+  draft.faceOrigin = composed(draft.faceOrigin, std::move(order));
 }
 
 std::pair<Index, Index> edgeOf(const Draft& draft, const Adjacency& joints, Index c) {
@@ -319,7 +319,7 @@ void noteCopies(Draft& draft, const std::vector<Index>& copied, const std::vecto
                 RepairReport& report) {
   for (const Index v : copied) {
     const Index origin = draft.pointOrigin[v];
-    draft.pointOrigin.push_back(origin);
+    draft.pointOrigin.add(origin);
     if (atCut[v]) continue;
     note(report, RepairKind::kSplitVertex, origin,
          [&] { return "split vertex " + str(origin) + ", which joins several fans of faces"; });
@@ -368,8 +368,7 @@ bool chord(Draft& draft, const Adjacency& joints, RepairReport& report) {
   ChordResult chords = chordInteriorPairs(draft.mesh, joints);
   noteChords(draft, chords, report);
   draft.mesh = std::move(chords.mesh);
-  for (Index& f : chords.faceOrigin) f = draft.faceOrigin[f];
-  draft.faceOrigin = std::move(chords.faceOrigin);
+  draft.faceOrigin = composed(draft.faceOrigin, std::move(chords.faceOrigin));
   return true;
 }
 
@@ -408,8 +407,10 @@ Adjacency makeManifold(Draft& draft, const RepairOptions& options, RepairReport&
 /// Counts the vertices of the input that are not in the output, except welded and chorded ones, and
 /// those on bridges of keyholes.
 void noteRemoved(const Draft& draft, RepairReport& report) {
+  const Origins& origins = draft.pointOrigin;
+  if (origins.areTheSame() && origins.size() == draft.dispensable.size()) return;
   std::vector<bool> accountedFor = draft.dispensable;
-  for (const Index origin : draft.pointOrigin) accountedFor[origin] = true;
+  for (Index v = 0; v < origins.size(); ++v) accountedFor[origins[v]] = true;
   for (Index v = 0; v < accountedFor.size(); ++v)
     if (!accountedFor[v] && report.weldedTo[v] == v)
       note(report, RepairKind::kRemovedVertex, v,
@@ -420,15 +421,15 @@ void removeUnused(Draft& draft) {
   const std::vector<std::uint8_t> used = usedPoints(draft.mesh);
   if (std::find(used.begin(), used.end(), 0) == used.end()) return;
   std::vector<Index> newName(draft.mesh.pointCount(), kNone);
-  Index kept = 0;
+  std::vector<Index> kept;
   for (Index v = 0; v < newName.size(); ++v) {
     if (!used[v]) continue;
-    newName[v] = kept;
-    draft.mesh.points[kept] = draft.mesh.points[v];
-    draft.pointOrigin[kept++] = draft.pointOrigin[v];
+    newName[v] = static_cast<Index>(kept.size());
+    draft.mesh.points[kept.size()] = draft.mesh.points[v];
+    kept.push_back(v);
   }
-  draft.mesh.points.resize(kept);
-  draft.pointOrigin.resize(kept);
+  draft.mesh.points.resize(kept.size());
+  draft.pointOrigin = composed(draft.pointOrigin, std::move(kept));
   for (Index& v : draft.mesh.faceVertices) v = newName[v];
 }
 
@@ -436,16 +437,20 @@ void removeUnused(Draft& draft) {
 
 PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport& report) {
   requireValidArrays(mesh);
+  return repairValid(std::move(mesh), options, report);
+}
+
+PolygonMesh repairValid(PolygonMesh mesh, const RepairOptions& options, RepairReport& report) {
   mesh.pointColors.clear();
   mesh.faceColors.clear();
   mesh.faceGroups.clear();
   mesh.attributes = {};
   report = RepairReport{};
-  report.weldedTo = numbered(mesh.pointCount());
+  report.weldedTo = Origins(mesh.pointCount());
   Draft draft{std::move(mesh), {}, {}, {}};
   draft.dispensable.assign(draft.mesh.pointCount(), false);
-  draft.pointOrigin = numbered(draft.mesh.pointCount());
-  draft.faceOrigin = numbered(draft.mesh.faceCount());
+  draft.pointOrigin = Origins(draft.mesh.pointCount());
+  draft.faceOrigin = Origins(draft.mesh.faceCount());
 
   if (options.weld) weld(draft, options.weldTolerance, report);
   cleanFaces(draft, report);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/core/origins.h"
 #include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/polygon_mesh.h"
 #include "libvox/options/smoothing_options.h"
@@ -57,11 +58,11 @@ struct RepairAction {
 /// Changes that repair made, and origins of the elements of its output.
 struct RepairReport {
   std::array<RepairAction, kRepairKindCount> actions;
-  FaceSplitReport faces;           ///< split faces: no change in the sense of changed()
-  std::vector<Index> pointOrigin;  ///< input point of each point of the output
-  std::vector<Index> faceOrigin;   ///< input face of each face of the output
-  Adjacency joints;                ///< joined edges of the output, as joinFaces finds them
-  std::vector<Index> weldedTo;     ///< for each input point, the one it was welded to, or itself
+  FaceSplitReport faces;  ///< split faces: no change in the sense of changed()
+  Origins pointOrigin;    ///< input point of each point of the output
+  Origins faceOrigin;     ///< input face of each face of the output
+  Adjacency joints;       ///< joined edges of the output, as joinFaces finds them
+  Origins weldedTo;       ///< for each input point, the one it was welded to, or itself
 
   const RepairAction& operator[](RepairKind kind) const {
     return actions[static_cast<std::size_t>(kind)];
@@ -103,5 +104,8 @@ std::string summary(const RepairReport& report);
 /// @throws LimitError  more than 2^32 - 2 points would be needed
 /// Cost O(C log C) for any mesh. Parallel in part; result independent of thread count.
 PolygonMesh repair(PolygonMesh mesh, const RepairOptions& options, RepairReport& report);
+
+/// The same, if requireValidArrays has accepted the mesh.
+PolygonMesh repairValid(PolygonMesh mesh, const RepairOptions& options, RepairReport& report);
 
 }  // namespace vox

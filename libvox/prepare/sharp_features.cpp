@@ -102,7 +102,7 @@ void markVertices(const InputElements& input, std::span<const Index> points, Sha
     requirePoint(v, input, "a corner");
     wanted[input.weldedTo[v]] = true;
   }
-  for (std::size_t v = 0; v < input.points.size(); ++v)
+  for (Index v = 0; v < input.points.size(); ++v)
     if (wanted[input.points[v]]) sharp.vertices[v] = true;
 }
 

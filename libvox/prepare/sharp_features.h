@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/core/origins.h"
 #include "libvox/core/types.h"
 #include "libvox/mesh/adjacency.h"
 #include "libvox/mesh/polygon_mesh.h"
@@ -20,9 +21,9 @@ SharpFeatures nothingSharp(const PolygonMesh& mesh);
 
 /// The elements of the input that a sound mesh comes from.
 struct InputElements {
-  std::span<const Index> weldedTo;  ///< per input point: the one that it was welded to, or itself
-  std::span<const Index> points;    ///< per point of the mesh: an input point
-  std::span<const Index> faces;     ///< per face of the mesh: an input face
+  const Origins& weldedTo;  ///< per input point: the one that it was welded to, or itself
+  const Origins& points;    ///< per point of the mesh: an input point
+  const Origins& faces;     ///< per face of the mesh: an input face
 };
 
 // Each function marks more edges or vertices. Edges between two parts of one input face are never

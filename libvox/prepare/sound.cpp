@@ -11,19 +11,18 @@ namespace vox {
 namespace {
 
 void nameInputElements(OrientReport& report, const RepairReport& before) {
-  for (Index& v : report.pointOrigin) v = before.pointOrigin[v];
-  for (Index& f : report.faceOrigin) f = before.faceOrigin[f];
+  report.pointOrigin = composed(before.pointOrigin, report.pointOrigin);
+  report.faceOrigin = composed(before.faceOrigin, report.faceOrigin);
   for (Index& f : report.oneSided) f = before.faceOrigin[f];
   if (report.firstFlipped != kNone) report.firstFlipped = before.faceOrigin[report.firstFlipped];
 }
 
 /// For each point, the mean colour of the points welded to it, summed in the order of their
 /// numbers.
-std::vector<Vec3f> meanOfWelded(const std::vector<Vec3f>& colors,
-                                const std::vector<Index>& weldedTo) {
+std::vector<Vec3f> meanOfWelded(const std::vector<Vec3f>& colors, const Origins& weldedTo) {
   std::vector<Vec3d> sums(colors.size(), Vec3d::Zero());
   std::vector<Index> counts(colors.size(), 0);
-  for (std::size_t v = 0; v < colors.size(); ++v) {
+  for (Index v = 0; v < colors.size(); ++v) {
     sums[weldedTo[v]] += colors[v].cast<double>();
     ++counts[weldedTo[v]];
   }
@@ -33,11 +32,11 @@ std::vector<Vec3f> meanOfWelded(const std::vector<Vec3f>& colors,
   return means;
 }
 
-std::vector<Vec3f> followed(const std::vector<Vec3f>& colors, const std::vector<Index>& origin) {
+std::vector<Vec3f> followed(const std::vector<Vec3f>& colors, const Origins& origin) {
   if (colors.empty()) return {};
   std::vector<Vec3f> result;
   result.reserve(origin.size());
-  for (const Index from : origin) result.push_back(colors[from]);
+  for (Index i = 0; i < origin.size(); ++i) result.push_back(colors[origin[i]]);
   return result;
 }
 
@@ -47,7 +46,7 @@ PolygonMesh soundMesh(PolygonMesh mesh, const RepairOptions& options, SoundRepor
   requireValidArrays(mesh);
   const std::vector<Vec3f> pointColors = std::exchange(mesh.pointColors, {});
   const std::vector<Vec3f> faceColors = std::exchange(mesh.faceColors, {});
-  mesh = repair(std::move(mesh), options, report.repair);
+  mesh = repairValid(std::move(mesh), options, report.repair);
   mesh = orient(std::move(mesh), std::move(report.repair.joints), report.orient);
   nameInputElements(report.orient, report.repair);
   mesh.pointColors =

@@ -14,8 +14,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 namespace vox {
 namespace {
@@ -38,9 +40,27 @@ Index pointOf(HashedPoint hashed) {
   return static_cast<Index>(hashed);
 }
 
+/// The targets of points, made when the first one is welded. Threads may weld points that have
+/// nothing in common at the same time.
+class Targets {
+ public:
+  explicit Targets(std::size_t count) : count_(static_cast<Index>(count)) {}
+
+  /// Welds v to the target of `to`.
+  void weld(Index v, Index to) {
+    std::call_once(areMade_, [&] { targets_ = numbered(count_); });
+    targets_[v] = targets_[to];
+  }
+  Origins take() { return targets_.empty() ? Origins(count_) : Origins(std::move(targets_)); }
+
+ private:
+  Index count_;
+  std::once_flag areMade_;
+  std::vector<Index> targets_;
+};
+
 /// Welds equal points among those of one hash.
-void weldAlike(const std::vector<Vec3d>& points, std::span<HashedPoint> alike,
-               std::vector<Index>& target) {
+void weldAlike(const std::vector<Vec3d>& points, std::span<HashedPoint> alike, Targets& targets) {
   const auto before = [&](HashedPoint a, HashedPoint b) {
     const Vec3d& p = points[pointOf(a)];
     const Vec3d& q = points[pointOf(b)];
@@ -51,7 +71,7 @@ void weldAlike(const std::vector<Vec3d>& points, std::span<HashedPoint> alike,
   std::sort(alike.begin(), alike.end(), before);
   for (std::size_t k = 1; k < alike.size(); ++k)
     if (points[pointOf(alike[k])] == points[pointOf(alike[k - 1])])
-      target[pointOf(alike[k])] = target[pointOf(alike[k - 1])];
+      targets.weld(pointOf(alike[k]), pointOf(alike[k - 1]));
 }
 
 /// Whether two of the hashes are equal. A table of open addresses.
@@ -70,7 +90,7 @@ bool haveRepeats(std::span<const HashedPoint> hashed) {
 
 /// Welds equal points among those of a bucket.
 void weldBucket(const std::vector<Vec3d>& points, std::span<const HashedPoint> bucket,
-                std::vector<Index>& target) {
+                Targets& targets) {
   if (!haveRepeats(bucket)) return;
   std::vector<HashedPoint> sorted(bucket.begin(), bucket.end());
   std::sort(sorted.begin(), sorted.end());
@@ -78,15 +98,13 @@ void weldBucket(const std::vector<Vec3d>& points, std::span<const HashedPoint> b
   for (auto first = sorted.begin(); first != sorted.end();) {
     const auto last = std::find_if(first + 1, sorted.end(),
                                    [&](HashedPoint other) { return differ(*first, other); });
-    if (last - first > 1) weldAlike(points, {first, last}, target);
+    if (last - first > 1) weldAlike(points, {first, last}, targets);
     first = last;
   }
 }
 
-std::vector<Index> weldEqual(const std::vector<Vec3d>& points,
-                             const std::vector<std::uint8_t>& used) {
+Origins weldEqual(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>& used) {
   constexpr std::size_t kPointsPerBucket = 2048;
-  std::vector<Index> target = numbered(points.size());
   const auto count = static_cast<Index>(points.size() / kPointsPerBucket + 1);
   const Buckets<HashedPoint> buckets(static_cast<Index>(points.size()), count,
                                      [&](Index v, auto&& put) {
@@ -94,8 +112,9 @@ std::vector<Index> weldEqual(const std::vector<Vec3d>& points,
                                        const std::uint32_t hash = hashOf(points[v]);
                                        put(hash % count, HashedPoint{hash} << 32U | v);
                                      });
-  parallelForEach(count, 1, [&](Index b) { weldBucket(points, buckets[b], target); });
-  return target;
+  Targets targets(points.size());
+  parallelForEach(count, 1, [&](Index b) { weldBucket(points, buckets[b], targets); });
+  return targets.take();
 }
 
 /// Coordinates of a cell: integers, stored as doubles so that none overflows.
@@ -150,8 +169,8 @@ class NearPoints {
   std::unordered_map<Cell, std::vector<Index>, CellHash> cells_;
 };
 
-std::vector<Index> weldNear(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>& used,
-                            double tolerance) {
+Origins weldNear(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>& used,
+                 double tolerance) {
   std::vector<Index> target = numbered(points.size());
   NearPoints stayed(points, tolerance);
   for (Index v = 0; v < points.size(); ++v) {
@@ -167,8 +186,8 @@ std::vector<Index> weldNear(const std::vector<Vec3d>& points, const std::vector<
 
 }  // namespace
 
-std::vector<Index> weldTargets(const std::vector<Vec3d>& points,
-                               const std::vector<std::uint8_t>& used, double tolerance) {
+Origins weldTargets(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>& used,
+                    double tolerance) {
   if (!std::isfinite(tolerance) || tolerance < 0)
     throw UsageError("the weld tolerance (--weld) must be a finite distance, 0 or more");
   return tolerance == 0 ? weldEqual(points, used) : weldNear(points, used, tolerance);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "libvox/core/origins.h"
 #include "libvox/core/types.h"
 
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace vox {
 ///
 /// Cost O(V log V), parallel; with a tolerance O(V) expected.
 /// @throws UsageError  the tolerance is negative or not finite
-std::vector<Index> weldTargets(const std::vector<Vec3d>& points,
-                               const std::vector<std::uint8_t>& used, double tolerance);
+Origins weldTargets(const std::vector<Vec3d>& points, const std::vector<std::uint8_t>& used,
+                    double tolerance);
 
 }  // namespace vox

@@ -125,52 +125,48 @@ class ChildTopology {
       twin = c < t ? edgeCorner(c, 0) : edgeCorner(t, 2);
     else if (layout_.vFace[c] != kNone)
       twin = halfEdgeCorner(halfFaceOf(c), 0);
-    set(c, c, adjacency_.cornerFace[c], twin);
+    set(c, c, twin);
   }
 
   void writeEdgeFace(Index c) {
     const Index t = adjacency_.twin[c];
     const Index nextC = nextCorner(mesh_, adjacency_, c);
     const Index nextT = nextCorner(mesh_, adjacency_, t);
-    const Index face = mesh_.faceCount() + layout_.edge[c];
-    set(edgeCorner(c, 0), nextC, face, c);
-    set(edgeCorner(c, 1), c, face, acrossVertex(nextT));
-    set(edgeCorner(c, 2), nextT, face, t);
-    set(edgeCorner(c, 3), t, face, acrossVertex(nextC));
+    set(edgeCorner(c, 0), nextC, c);
+    set(edgeCorner(c, 1), c, acrossVertex(nextT));
+    set(edgeCorner(c, 2), nextT, t);
+    set(edgeCorner(c, 3), t, acrossVertex(nextC));
   }
 
   void writeVertexFace(Index leader) {
-    const Index face = faceOfVFace(layout_.vFace[leader]);
     Index x = leader;
     do {
-      set(vFaceCorner(x), x, face, edgeFacing(x));
+      set(vFaceCorner(x), x, edgeFacing(x));
       x = nextAroundVertex(mesh_, adjacency_, x);
     } while (x != leader);
   }
 
   void writeHalfVertexFace(Index k) {
-    const Index face = faceOfVFace(layout_.vertexFaces + k);
     Index x = layout_.boundary[k];
     for (Index y = nextAroundVertex(mesh_, adjacency_, x); y != kNone;
          y = nextAroundVertex(mesh_, adjacency_, x)) {
-      set(vFaceCorner(x), x, face, edgeFacing(x));
+      set(vFaceCorner(x), x, edgeFacing(x));
       x = y;
     }
     const Index arriving = halfFaceOf(previousCorner(mesh_, adjacency_, x));
-    set(vFaceCorner(x), x, face, halfEdgeCorner(arriving, 3));
-    set(vFaceCorner(x) + 1, boundaryPoint(arriving) + 1, face, kNone);
-    set(vFaceCorner(x) + 2, boundaryPoint(k), face, halfEdgeCorner(k, 1));
+    set(vFaceCorner(x), x, halfEdgeCorner(arriving, 3));
+    set(vFaceCorner(x) + 1, boundaryPoint(arriving) + 1, kNone);
+    set(vFaceCorner(x) + 2, boundaryPoint(k), halfEdgeCorner(k, 1));
   }
 
   void writeHalfEdgeFace(Index k) {
     const Index c = layout_.boundary[k];
     const Index nextC = nextCorner(mesh_, adjacency_, c);
-    const Index face = faceOfVFace(layout_.vertexFaces + layout_.halfFaces()) + k;
     const Index afterVFace = firstVFaceCorner_ + layout_.vFaceOffset[layout_.vertexFaces + k + 1];
-    set(halfEdgeCorner(k, 0), nextC, face, c);
-    set(halfEdgeCorner(k, 1), c, face, afterVFace - 1);
-    set(halfEdgeCorner(k, 2), boundaryPoint(k), face, kNone);
-    set(halfEdgeCorner(k, 3), boundaryPoint(k) + 1, face, vFaceCorner(nextC));
+    set(halfEdgeCorner(k, 0), nextC, c);
+    set(halfEdgeCorner(k, 1), c, afterVFace - 1);
+    set(halfEdgeCorner(k, 2), boundaryPoint(k), kNone);
+    set(halfEdgeCorner(k, 3), boundaryPoint(k) + 1, vFaceCorner(nextC));
   }
 
  private:
@@ -204,9 +200,8 @@ class ChildTopology {
     return valenceTwo ? edgeFacing(y) : kNone;
   }
 
-  void set(Index corner, Index point, Index face, Index twin) {
+  void set(Index corner, Index point, Index twin) {
     child_.mesh.faceVertices[corner] = point;
-    child_.adjacency.cornerFace[corner] = face;
     child_.adjacency.twin[corner] = twin;
   }
 
@@ -279,10 +274,10 @@ SubdivisionLevel nextLevel(const SubdivisionLevel& level, std::vector<Vec3d> ima
   child.mesh.points = std::move(image);
   child.mesh.faceVertices.resize(childCorners);
   child.adjacency.twin.resize(childCorners);
-  child.adjacency.cornerFace.resize(childCorners);
 
   ChildTopology topology(level, layout, child);
   topology.writeFaceOffsets();
+  child.adjacency.cornerFace = CornerFaces(child.mesh);
   parallelForEach(corners, kCornersPerTask, [&](Index c) {
     topology.writeFaceCorner(c);
     if (layout.edge[c] != kNone) topology.writeEdgeFace(c);
