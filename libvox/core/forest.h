@@ -1,6 +1,7 @@
 #pragma once
 
 #include "libvox/core/numbered.h"
+#include "libvox/core/parallel.h"
 #include "libvox/core/types.h"
 
 #include <algorithm>
@@ -29,6 +30,17 @@ class Forest {
       up = parent(x).load(kRelaxed);
     }
     return x;
+  }
+
+  /// Root of the set of each number. Parallel; uses up the forest.
+  std::vector<Index> takeRoots() {
+    parallelForEach(static_cast<Index>(parent_.size()), kElementsPerTask, [&](Index x) {
+      Index root = x;  // not by find: while others write roots, it could put back an ancestor
+      for (Index up = parent(x).load(kRelaxed); up != root; up = parent(up).load(kRelaxed))
+        root = up;
+      parent(x).store(root, kRelaxed);
+    });
+    return std::move(parent_);
   }
 
   /// Joins the sets of a and b.

@@ -2,12 +2,12 @@
 
 #include "libvox/localize/partition.h"
 
+#include "libvox/core/origins.h"
 #include "libvox/core/parallel.h"
 #include "libvox/mesh/spatial_order.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 namespace vox {
@@ -21,16 +21,12 @@ constexpr Index kSubmeshesPerNeighbourhood = 8;
 
 /// An order of the faces, and the place of each face in it.
 struct FaceOrder {
-  std::vector<Index> faces;
-  std::vector<Index> places;
+  Origins faces;
+  Origins places;
 };
 
 FaceOrder inputOrder(Index count) {
-  FaceOrder order;
-  order.faces.resize(count);
-  std::iota(order.faces.begin(), order.faces.end(), Index{0});
-  order.places = order.faces;
-  return order;
+  return {Origins(count), Origins(count)};
 }
 
 /// Order of the faces by the positions of their first corners.
@@ -39,12 +35,10 @@ FaceOrder orderInSpace(const PolygonMesh& mesh) {
   parallelForEach(mesh.faceCount(), kFacesPerBlock, [&](Index f) {
     firstCorners[f] = mesh.points[mesh.faceVertices[mesh.faceOffsets[f]]];
   });
-  FaceOrder order;
-  order.faces = spatialOrder(firstCorners);
-  order.places.resize(order.faces.size());
-  for (Index place = 0; place < order.faces.size(); ++place)
-    order.places[order.faces[place]] = place;
-  return order;
+  std::vector<Index> faces = spatialOrder(firstCorners);
+  std::vector<Index> places(faces.size());
+  for (Index place = 0; place < faces.size(); ++place) places[faces[place]] = place;
+  return {std::move(faces), std::move(places)};
 }
 
 /// Cover of the faces at the places [first, last) of an order.

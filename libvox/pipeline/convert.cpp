@@ -47,6 +47,12 @@ bool needsObjectsApart(const PreparedScene& prepared, const Request& request) {
                                                     GridKind::kColor) != request.grids.end());
 }
 
+/// Whether the surfaces are needed once their voxels are marked.
+bool needsSurfaces(const Request& request) {
+  return request.splits || request.volume.alpha == Alpha::kCut ||
+         needsSurfaces(request.grids, request.volume);
+}
+
 /// The transform of the output: that of the conversion in the axes of the grid.
 openvdb::math::Transform::Ptr transformOfFile(const Request& request,
                                               const GridTransform& transform) {
@@ -116,6 +122,7 @@ class SceneMarker {
               ConvertReport& report)
       : request_(request),
         apart_(apart),
+        keepsSurfaces_(needsSurfaces(request)),
         prepared_(prepared),
         progress_(progress),
         report_(report),
@@ -130,6 +137,7 @@ class SceneMarker {
     else
       markByVertices(surface, part);
     if (apart_) takeApart(surface);
+    if (!keepsSurfaces_) surface.base = {};
     const std::uint64_t voxels = apart_ ? all_->activeVoxelCount() : grid_.countVoxels();
     part.activeVoxels = voxels - report_.activeVoxels;
     report_.activeVoxels = voxels;
@@ -186,6 +194,7 @@ class SceneMarker {
 
   const Request& request_;
   bool apart_;
+  bool keepsSurfaces_;
   PreparedScene& prepared_;
   Progress& progress_;
   ConvertReport& report_;

@@ -81,6 +81,14 @@ bool needsVoxels(std::span<const GridKind> kinds) {
                      [](GridKind kind) { return kind != GridKind::kSurface; });
 }
 
+bool needsSurfaces(std::span<const GridKind> kinds, const VolumeSettings& volume) {
+  return std::any_of(kinds.begin(), kinds.end(), [&](GridKind kind) {
+    if (kind == GridKind::kDensity)
+      return volume.edge == Edge::kSoft || volume.fill == Fill::kSolid;
+    return kind != GridKind::kMask;
+  });
+}
+
 bool needsInside(std::span<const GridKind> kinds, const VolumeSettings& volume) {
   return std::any_of(kinds.begin(), kinds.end(), [&](GridKind kind) {
     return kind == GridKind::kSurface ||

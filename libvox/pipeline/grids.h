@@ -27,6 +27,8 @@ inline constexpr const char* kScatteredAdvice =
 
 /// True if one of the grids is made from the active voxels.
 bool needsVoxels(std::span<const GridKind> kinds);
+/// True if one of the grids is made from more than the active voxels.
+bool needsSurfaces(std::span<const GridKind> kinds, const VolumeSettings& volume);
 /// True if one of the grids tells inside from outside.
 bool needsInside(std::span<const GridKind> kinds, const VolumeSettings& volume);
 

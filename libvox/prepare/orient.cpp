@@ -28,8 +28,8 @@ constexpr std::uint64_t kMostSearchSteps = 1'000'000'000;
 
 /// Faces that are connected through edges: a range of Components::faces.
 struct Component {
-  std::size_t begin;
-  std::size_t end;
+  std::size_t begin = 0;
+  std::size_t end = 0;
   Index against = 0;  ///< number of faces that are wound against the lowest one in the input
   bool boundary = false;
   bool oneSided = false;
@@ -95,19 +95,24 @@ bool areWoundConsistently(const PolygonMesh& mesh, const Adjacency& joints) {
   return lowestWhere(mesh.cornerCount(), kElementsPerTask, isWrong) == mesh.cornerCount();
 }
 
+/// The faces, component after component.
 /// @param numbers  for each face, its component
-/// @param count    number of components
-std::vector<Index> sortedByComponent(const std::vector<Index>& numbers, std::size_t count,
-                                     std::vector<Component>& list) {
-  std::vector<Index> faces = numbered(numbers.size());
-  if (count == 1) {
-    list.push_back({0, numbers.size()});
-    return faces;
+/// @param list     gets the places of the faces of each component
+std::vector<Index> sortedByComponent(std::vector<Index> numbers, std::vector<Component>& list) {
+  if (list.size() == 1) {
+    list[0].end = numbers.size();
+    parallelForEach(static_cast<Index>(numbers.size()), kElementsPerTask,
+                    [&](Index f) { numbers[f] = f; });
+    return numbers;
   }
-  std::vector<std::size_t> place(count + 1, 0);
+  std::vector<std::size_t> place(list.size() + 1, 0);
   for (const Index n : numbers) ++place[n + 1];
   std::partial_sum(place.begin(), place.end(), place.begin());
-  for (std::size_t n = 0; n < count; ++n) list.push_back({place[n], place[n + 1]});
+  for (std::size_t n = 0; n < list.size(); ++n) {
+    list[n].begin = place[n];
+    list[n].end = place[n + 1];
+  }
+  std::vector<Index> faces(numbers.size());
   for (Index f = 0; f < faces.size(); ++f) faces[place[numbers[f]]++] = f;
   return faces;
 }
@@ -137,26 +142,35 @@ void markComponents(const std::vector<Index>& number, std::vector<Component>& li
 
 Components findComponents(const PolygonMesh& mesh, const Adjacency& joints) {
   const Index faces = mesh.faceCount();
-  const bool consistent = areWoundConsistently(mesh, joints);
-  Forest sets = consistent ? connectedFaces(mesh, joints) : sidesOf(mesh, joints);
   Components out;
-  if (!consistent) out.reversed.resize(faces);
-  std::vector<Index> number(faces);
-  parallelForEach(faces, kElementsPerTask, [&](Index f) {
-    const Index root = sets.find(consistent ? f : 2 * f);
-    number[f] = consistent ? root : root / 2;
-    if (!consistent) out.reversed[f] = root & 1U;
-  });
-  out.faces = sortedByComponent(number, numberComponents(number), out.list);
+  std::vector<Index> number;
+  std::vector<std::uint8_t> isOneSided;
+  if (areWoundConsistently(mesh, joints)) {
+    number = connectedFaces(mesh, joints).takeRoots();
+  } else {
+    Forest sides = sidesOf(mesh, joints);
+    number.resize(faces);
+    out.reversed.resize(faces);
+    isOneSided.resize(faces);
+    parallelForEach(faces, kElementsPerTask, [&](Index f) {
+      const Index root = sides.find(2 * f);
+      out.reversed[f] = root & 1U;
+      number[f] = root / 2;
+      isOneSided[f] = sides.find(2 * f + 1) == root;
+    });
+  }
+  out.list.resize(numberComponents(number));
   markComponents(number, out.list, &Component::boundary, [&](Index f) {
     const auto begin = joints.twin.begin() + mesh.faceOffsets[f];
     const auto end = joints.twin.begin() + mesh.faceOffsets[f + 1];
     return std::find(begin, end, kNone) != end;
   });
-  if (consistent) return out;
-  markComponents(number, out.list, &Component::oneSided,
-                 [&](Index f) { return sets.find(2 * f) == sets.find(2 * f + 1); });
-  for (Index f = 0; f < faces; ++f) out.list[number[f]].against += out.reversed[f];
+  for (Index f = 0; f < isOneSided.size(); ++f) {
+    Component& component = out.list[number[f]];
+    component.against += out.reversed[f];
+    component.oneSided |= isOneSided[f] != 0;
+  }
+  out.faces = sortedByComponent(std::move(number), out.list);
   return out;
 }
 

@@ -74,16 +74,22 @@ void weldAlike(const std::vector<Vec3d>& points, std::span<HashedPoint> alike, T
       targets.weld(pointOf(alike[k]), pointOf(alike[k - 1]));
 }
 
-/// Whether two of the hashes are equal. A table of open addresses.
-bool haveRepeats(std::span<const HashedPoint> hashed) {
+bool haveSameHash(HashedPoint a, HashedPoint b) {
+  return a >> 32U == b >> 32U;
+}
+
+/// Whether two of the points are equal. A table of open addresses.
+bool haveRepeats(const std::vector<Vec3d>& points, std::span<const HashedPoint> hashed) {
+  constexpr HashedPoint kFree = kNone;
   const std::size_t slots = std::bit_ceil(2 * hashed.size() + 1);
-  std::vector<std::uint64_t> table(slots, 0);  // 0: free
+  std::vector<HashedPoint> table(slots, kFree);
   for (const HashedPoint point : hashed) {
-    const std::uint64_t key = (point >> 32U) + 1;
-    std::size_t slot = (key * 0x9e3779b97f4a7c15ULL >> 32U) & (slots - 1);
-    for (; table[slot] != 0; slot = (slot + 1) & (slots - 1))
-      if (table[slot] == key) return true;
-    table[slot] = key;
+    std::size_t slot = (((point >> 32U) + 1) * 0x9e3779b97f4a7c15ULL >> 32U) & (slots - 1);
+    for (; table[slot] != kFree; slot = (slot + 1) & (slots - 1))
+      if (haveSameHash(table[slot], point) &&
+          points[pointOf(table[slot])] == points[pointOf(point)])
+        return true;
+    table[slot] = point;
   }
   return false;
 }
@@ -91,13 +97,12 @@ bool haveRepeats(std::span<const HashedPoint> hashed) {
 /// Welds equal points among those of a bucket.
 void weldBucket(const std::vector<Vec3d>& points, std::span<const HashedPoint> bucket,
                 Targets& targets) {
-  if (!haveRepeats(bucket)) return;
+  if (!haveRepeats(points, bucket)) return;
   std::vector<HashedPoint> sorted(bucket.begin(), bucket.end());
   std::sort(sorted.begin(), sorted.end());
-  const auto differ = [](HashedPoint a, HashedPoint b) { return a >> 32U != b >> 32U; };
   for (auto first = sorted.begin(); first != sorted.end();) {
     const auto last = std::find_if(first + 1, sorted.end(),
-                                   [&](HashedPoint other) { return differ(*first, other); });
+                                   [&](HashedPoint other) { return !haveSameHash(*first, other); });
     if (last - first > 1) weldAlike(points, {first, last}, targets);
     first = last;
   }
