@@ -64,8 +64,7 @@ struct HeightCell {
   std::array<Float3, 3> axes;      ///< unit: along a, along b, and up
   Quartic<float> height;           ///< a, b in voxels
   std::array<float, 2> half = {};  ///< half sides of the rectangle
-  /// Feet count where s[0] a + s[1] b <= s[2]; distant ones also a little beyond, as far as normals
-  /// are off.
+  /// Feet are where s[0] a + s[1] b <= s[2]; (s[0], s[1]) is a unit vector.
   std::array<Float3, kMostOfStar> sides;
   std::uint32_t sideCount = 0;
   float stop = 0;  ///< a shorter step is the last one, voxels

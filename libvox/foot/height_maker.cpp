@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace vox {
 
@@ -17,7 +16,8 @@ void addHeightCell(const HeightPatch& patch, float reach, float newtonStop, std:
   const auto leanOf = [](double slope) { return slope / std::sqrt(1 + slope * slope); };
   const double tube = double{reach} + kMargin;
   const double sag = 0.2 * (patch.high - patch.low) + kMargin;
-  const double overlap = std::min(0.1, 0.2 * std::min(patch.half[0], patch.half[1]));
+  // Neighbours overlap a little. Where their normals are off, the feet of distant points are, too.
+  const double overlap = std::min(0.02, 0.05 * std::min(patch.half[0], patch.half[1]));
   const double widest = overlap + kSlopeOfStar * tube;
   const std::array<double, 3> half = {
       patch.half[0] + 1.2 * leanOf(patch.steepest[0]) * tube + widest,

@@ -152,8 +152,6 @@ HWY_INLINE V heightStep(const Quartic<V>& height, const V3& x, const std::array<
   return change;
 }
 
-constexpr float kNoFoot = 1e30F;  // a distance that is larger than all others
-
 void solveHeight(const HeightCell& cell, const Float3& shift, Feet& feet) {
   constexpr int kMostSteps = 6;
   const D d;
@@ -179,6 +177,15 @@ void solveHeight(const HeightCell& cell, const Float3& shift, Feet& feet) {
       b = hn::IfThenElse(moving, nextB, b);
       moving = hn::And(moving, hn::Gt(change, stop));
     }
+    // A foot beyond the sides is brought back: a neighbour has a nearer one, or the normals of both
+    // are off a little.
+    for (std::size_t s = 0; s < cell.sideCount; ++s) {
+      const auto& [sa, sb, most] = cell.sides[s];
+      const V out = mulAdd(set(sa), a, mulAdd(set(sb), b, set(-most)));
+      const V beyond = hn::Max(out, hn::Zero(d));
+      a = hn::Sub(a, hn::Mul(set(sa), beyond));
+      b = hn::Sub(b, hn::Mul(set(sb), beyond));
+    }
     QuarticJetV jet;
     jetAt(height, a, b, jet);
     const V ra = hn::Sub(x[0], a), rb = hn::Sub(x[1], b), rise = hn::Sub(x[2], jet.value);
@@ -190,15 +197,7 @@ void solveHeight(const HeightCell& cell, const Float3& shift, Feet& feet) {
     const auto inside = hn::And(hn::And(hn::Lt(hn::Abs(a), half[0]), hn::Lt(hn::Abs(b), half[1])),
                                 hn::Lt(hn::Sub(r2, t2), set(0.04F)));
     const V distance = hn::Sqrt(hn::IfThenElse(inside, hn::Min(t2, r2), r2));
-    const V beyond = hn::Mul(set(static_cast<float>(kSlopeOfStar)), distance);
-    auto counts = hn::Eq(one, one);
-    for (std::size_t s = 0; s < cell.sideCount; ++s) {
-      const auto& [sa, sb, most] = cell.sides[s];
-      const V out = mulAdd(set(sa), a, hn::Mul(set(sb), b));
-      counts = hn::And(counts, hn::Le(out, hn::Add(beyond, set(most))));
-    }
-    const V answer = hn::IfThenElse(counts, distance, set(kNoFoot));
-    hn::Store(hn::CopySign(answer, side), d, feet.t.data() + i);
+    hn::Store(hn::CopySign(distance, side), d, feet.t.data() + i);
     hn::Store(a, d, feet.a.data() + i);
     hn::Store(b, d, feet.b.data() + i);
   }

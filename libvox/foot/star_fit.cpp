@@ -14,6 +14,7 @@ namespace vox {
 namespace {
 
 constexpr double kSteepest = 0.5;  // slope above the rectangle
+
 /// A limit point in the frame of the star.
 struct FramePoint {
   double a, b, height;

@@ -14,7 +14,7 @@ namespace vox {
 template <class Number>
 using Quartic = std::array<Number, 15>;
 
-/// A value and its derivatives.
+/// A height and its derivatives.
 struct HeightSlope {
   double height, alongA, alongB;
 };
@@ -22,8 +22,8 @@ HeightSlope heightAt(const Quartic<double>& terms, double a, double b);
 
 inline constexpr std::size_t kLeastOfStar = 4;  ///< triangles
 inline constexpr std::size_t kMostOfStar = 8;
-inline constexpr double kSlopeOfStar =
-    0.1;  ///< a normal is off by no more at the limit points of faces
+/// Slopes of a patch are off by no more than this at the limit points of faces.
+inline constexpr double kSlopeOfStar = 0.1;
 
 /// A part of a surface as a height above a rectangle.
 struct HeightPatch {
@@ -51,9 +51,8 @@ struct TriangleStar {
 /// @param star       kLeastOfStar to kMostOfStar triangles, and as many beyond them
 /// @param longest    side of the rectangle
 /// @param tolerance  largest distance, along the third axis, of those limit points from the patch
-/// @return a rectangle around the corners;
-/// nothing if the rectangle is longer, the surface is steep above it or is no height, or a
-///   limit point is farther away
+/// @return nothing if the rectangle around the corners is longer, the surface is steep above it or
+///   is no height, or a limit point or a normal is farther off
 /// Source: DESIGN section 18.
 std::optional<HeightPatch> fitStar(const TriangleStar& star, double longest, double tolerance);
 

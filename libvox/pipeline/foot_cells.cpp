@@ -76,9 +76,9 @@ std::vector<std::uint8_t> addVertices(const SubdivisionLevel& base,
     PieceSink& sink = *sinks.local();
     const std::uint64_t before = sink.store.bytes();
     std::vector<Index> corners;
-    for (std::size_t c = begin; c < end; ++c) {
+    for (auto c = static_cast<Index>(begin); c < end; ++c) {
       if (skipped[base.adjacency.cornerFace[c]] != 0) continue;
-      if (!vertices.setCorners(static_cast<Index>(c), corners)) continue;
+      if (!vertices.setCorners(c, corners)) continue;
       if (!addVertex(vertices, corners, withHeights, sink)) continue;
       for (const Index corner : corners) added[corner] = 1;
     }
@@ -111,7 +111,7 @@ std::vector<std::uint8_t> facesToSkip(const PolygonMesh& mesh, const std::vector
   for (const Index f : faces) skip[f] = 0;
   if (corners.empty()) return skip;
   constexpr std::size_t kFacesPerTask = 4096;
-  parallelForEach(mesh.faceCount(), kFacesPerTask, [&](Index f) {
+  parallelForEach(mesh.faceCount(), kFacesPerTask, [&](std::size_t f) {
     const auto begin = corners.begin() + mesh.faceOffsets[f];
     if (std::all_of(begin, corners.begin() + mesh.faceOffsets[f + 1],
                     [](std::uint8_t set) { return set != 0; }))
