@@ -121,6 +121,26 @@ PolygonMesh torusGrid(int major, int minor) {
   return mesh;
 }
 
+PolygonMesh wavyTriangles(int around, double jitter) {
+  PolygonMesh quads = torusGrid(around, around / 2);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(-jitter, jitter);
+  const double size = around / 6.3;
+  for (Vec3d& p : quads.points) {
+    p *= size;
+    p *= 1 + 0.02 * std::sin(p.x() * 0.4) * std::cos(p.y() * 0.3);
+    p += Vec3d(shift(random), shift(random), shift(random));
+  }
+  PolygonMesh mesh;
+  mesh.points = quads.points;
+  for (Index f = 0; f < quads.faceCount(); ++f) {
+    const auto face = quads.face(f);
+    mesh.addFace(std::array{face[0], face[1], face[2]});
+    mesh.addFace(std::array{face[0], face[2], face[3]});
+  }
+  return mesh;
+}
+
 PolygonMesh sheet(int columns, int rows) {
   PolygonMesh mesh;
   for (int j = 0; j <= rows; ++j)

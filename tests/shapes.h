@@ -20,10 +20,12 @@ PolygonMesh pyramid(int sides);               ///< apex of valence `sides` over 
 PolygonMesh prism(int sides);                 ///< two n-gons joined by quads
 PolygonMesh dodecahedron();                   ///< 12 pentagons
 PolygonMesh torusGrid(int major, int minor);  ///< closed quads
-PolygonMesh sheet(int columns, int rows);     ///< open grid of quads, wavy
-PolygonMesh valenceTwo();                     ///< closed, with a point between only two faces
-PolygonMesh bowTie();                         ///< two tetrahedra that share a point
-PolygonMesh moebius(int quads);               ///< cannot be oriented
+/// A torus of triangles, all of about the size 1, with waves, and points moved by up to `jitter`.
+PolygonMesh wavyTriangles(int around, double jitter);
+PolygonMesh sheet(int columns, int rows);  ///< open grid of quads, wavy
+PolygonMesh valenceTwo();                  ///< closed, with a point between only two faces
+PolygonMesh bowTie();                      ///< two tetrahedra that share a point
+PolygonMesh moebius(int quads);            ///< cannot be oriented
 
 PolygonMesh klein(int columns, int rows);  ///< closed quads, cannot be oriented
 

@@ -4,14 +4,10 @@
 #include "libvox/foot/star_fit.h"
 
 #include "libvox/foot/fit_sums.h"
-#include "libvox/grid/openvdb.h"
 #include "libvox/mesh/adjacency.h"
-#include "libvox/pipeline/convert.h"
 #include "libvox/pipeline/joined_vertices.h"
 #include "tests/closest_point.h"
-#include "tests/level_set_errors.h"
 #include "tests/repaired_level.h"
-#include "tests/scenes.h"
 #include "tests/shapes.h"
 
 #include <Eigen/Geometry>
@@ -57,27 +53,6 @@ struct Star {
   }
 };
 
-/// A closed mesh of triangles of about the size 1, with waves, and moved points. In voxels.
-PolygonMesh bumpy(int around, double jitter) {
-  PolygonMesh quads = test::torusGrid(around, around / 2);
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> shift(-jitter, jitter);
-  const double size = around / 6.3;
-  for (Vec3d& p : quads.points) {
-    p *= size;
-    p *= 1 + 0.02 * std::sin(p.x() * 0.4) * std::cos(p.y() * 0.3);
-    p += Vec3d(shift(random), shift(random), shift(random));
-  }
-  PolygonMesh mesh;
-  mesh.points = quads.points;
-  for (Index f = 0; f < quads.faceCount(); ++f) {
-    const auto face = quads.face(f);
-    mesh.addFace(std::array{face[0], face[1], face[2]});
-    mesh.addFace(std::array{face[0], face[2], face[3]});
-  }
-  return mesh;
-}
-
 Vec3d pointOf(const HeightPatch& patch, double a, double b) {
   return patch.middle + a * patch.half[0] * patch.axes[0] + b * patch.half[1] * patch.axes[1] +
          heightAt(patch.height, a, b).height * patch.axes[2];
@@ -96,7 +71,7 @@ bool isWithin(const HeightPatch& patch, double a, double b) {
 TEST_CASE("heights around vertices lie on the limit surface", "[foot][property]") {
   for (const double jitter : {0.0, 0.03}) {
     CAPTURE(jitter);
-    const SubdivisionLevel base = test::repairedLevel(bumpy(60, jitter));
+    const SubdivisionLevel base = test::repairedLevel(test::wavyTriangles(60, jitter));
     const test::ClosestPoint truth(base, 14);
     const JoinedVertices vertices(base);
     std::vector<Index> corners;
@@ -197,31 +172,4 @@ TEST_CASE("sums of powers are those of a plain loop, on every instruction set", 
   }
   hwy::GetChosenTarget().DeInit();
   CHECK(tried >= 2);
-}
-
-TEST_CASE("level sets of dense triangle meshes are exact to some thousandths of a voxel",
-          "[level-set][property]") {
-  for (const double jitter : {0.0, 0.03})
-    for (const double trianglesPerVoxel : {0.6, 1.5, 4.0}) {
-      CAPTURE(jitter, trianglesPerVoxel);
-      const PolygonMesh mesh = bumpy(60, jitter);
-      ConvertOptions options;
-      options.voxelSize = trianglesPerVoxel;
-      options.grids = std::vector{GridKind::kSurface};
-      const Conversion conversion = convert(test::sceneOf({mesh}), options);
-      const auto grid = openvdb::gridConstPtrCast<openvdb::FloatGrid>(
-          openvdb::GridBase::ConstPtr(conversion.grids.at(0)));
-      const test::ClosestPoint truth(test::repairedLevel(mesh, 1 / options.voxelSize.value()), 14);
-      constexpr std::size_t kSamplesOfMesh = 4000;
-      const auto errors =
-          test::compareLevelSet(*grid, truth, *options.voxelSize, 3, 3, kSamplesOfMesh);
-      CAPTURE(errors.rms, errors.largest);
-      CHECK(errors.rms <= 0.007);  // pieces for each corner: 0.0005
-      CHECK(errors.largest <= 0.045);
-      CHECK(errors.wrongSigns == 0);
-      CHECK(errors.surplus == 0);
-      CHECK(errors.missing == 0);
-      CHECK(errors.wrongBackgrounds == 0);
-      CHECK(errors.wrongSides == 0);
-    }
 }

@@ -90,8 +90,47 @@ HWY_INLINE void jetAt(const Quartic<V>& c, V a, V b, QuarticJetV& jet) {
          alongA[1], values[2]};
 }
 
-/// One step of Newton's method for the least |x - S(a, b)|^2 with |a|, |b| <= limit. Where the
-/// Hessian is not safely positive, the step is one of the Gauss-Newton method.
+/// Half the second derivatives of a square of a distance, as if the surface were flat and as it is;
+/// and half its gradient, downward.
+struct DescentTerms {
+  V flatAa, flatAb, flatBb;
+  V aa, ab, bb;
+  V downA, downB;
+};
+
+/// One step down with |a| <= limitA, |b| <= limitB: of Newton's method, or where the Hessian is not
+/// safely positive one of the Gauss-Newton method.
+/// @return the larger change of a and b
+HWY_INLINE V stepDown(const DescentTerms& terms, V limitA, V limitB, V& a, V& b) {
+  V haa = terms.aa, hab = terms.ab, hbb = terms.bb;
+  const V e = terms.flatAa, f = terms.flatAb, g = terms.flatBb;
+  V det = hn::Sub(hn::Mul(haa, hbb), hn::Mul(hab, hab));
+  const V detFlat = hn::Sub(hn::Mul(e, g), hn::Mul(f, f));
+  const auto safe =
+      hn::And(hn::Gt(det, hn::Mul(set(0.02F), detFlat)), hn::Gt(haa, hn::Mul(set(0.05F), e)));
+  haa = hn::IfThenElse(safe, haa, e);
+  hbb = hn::IfThenElse(safe, hbb, g);
+  hab = hn::IfThenElse(safe, hab, f);
+  const V tiny = set(1e-30F);
+  const V least = mulAdd(hn::Mul(set(1e-6F), e), g, tiny);
+  det = hn::IfThenElse(safe, hn::Max(det, tiny), hn::Max(detFlat, least));
+  const auto within = [](V p, V limit) { return hn::Min(hn::Max(p, hn::Neg(limit)), limit); };
+  const V stepA = hn::Div(hn::Sub(hn::Mul(hbb, terms.downA), hn::Mul(hab, terms.downB)), det);
+  // Each parameter once more, given the other one within its limits.
+  V na = within(hn::Add(a, stepA), limitA);
+  const V nb = within(
+      hn::Add(b, hn::Div(hn::Sub(terms.downB, hn::Mul(hab, hn::Sub(na, a))), hn::Max(hbb, tiny))),
+      limitB);
+  na = within(
+      hn::Add(a, hn::Div(hn::Sub(terms.downA, hn::Mul(hab, hn::Sub(nb, b))), hn::Max(haa, tiny))),
+      limitA);
+  const V change = hn::Max(hn::Abs(hn::Sub(na, a)), hn::Abs(hn::Sub(nb, b)));
+  a = na;
+  b = nb;
+  return change;
+}
+
+/// One step of Newton's method for the least |x - S(a, b)|^2 with |a|, |b| <= limit (stepDown).
 /// @return the larger change of a and b
 HWY_INLINE V newtonStep(const Biquadratic& c, const V3& x, V limit, V& a, V& b) {
   const V a2 = hn::Add(a, a);
@@ -120,30 +159,10 @@ HWY_INLINE V newtonStep(const Biquadratic& c, const V3& x, V limit, V& a, V& b) 
     rab = mulAdd(r, sab, rab);
     rbb = mulAdd(r, r2, rbb);
   }
-  V haa = hn::Sub(e, hn::Add(raa, raa));
-  V hbb = hn::Sub(g, hn::Add(rbb, rbb));
-  V hab = hn::Sub(f, rab);
-  V det = hn::Sub(hn::Mul(haa, hbb), hn::Mul(hab, hab));
-  const V detFlat = hn::Sub(hn::Mul(e, g), hn::Mul(f, f));
-  const auto safe =
-      hn::And(hn::Gt(det, hn::Mul(set(0.02F), detFlat)), hn::Gt(haa, hn::Mul(set(0.05F), e)));
-  haa = hn::IfThenElse(safe, haa, e);
-  hbb = hn::IfThenElse(safe, hbb, g);
-  hab = hn::IfThenElse(safe, hab, f);
-  const V least = mulAdd(hn::Mul(set(1e-6F), e), g, set(1e-30F));
-  det = hn::IfThenElse(safe, hn::Max(det, set(1e-30F)), hn::Max(detFlat, least));
-  const auto within = [&](V p) { return hn::Min(hn::Max(p, hn::Neg(limit)), limit); };
-  const V tiny = set(1e-30F);
-  const V stepA = hn::Div(hn::Sub(hn::Mul(hbb, ra), hn::Mul(hab, rb)), det);
-  // Each parameter once more, given the other one within its limits.
-  V na = within(hn::Add(a, stepA));
-  const V nb =
-      within(hn::Add(b, hn::Div(hn::Sub(rb, hn::Mul(hab, hn::Sub(na, a))), hn::Max(hbb, tiny))));
-  na = within(hn::Add(a, hn::Div(hn::Sub(ra, hn::Mul(hab, hn::Sub(nb, b))), hn::Max(haa, tiny))));
-  const V change = hn::Max(hn::Abs(hn::Sub(na, a)), hn::Abs(hn::Sub(nb, b)));
-  a = na;
-  b = nb;
-  return change;
+  const DescentTerms terms = {
+      e,  f, g, hn::Sub(e, hn::Add(raa, raa)), hn::Sub(f, rab), hn::Sub(g, hn::Add(rbb, rbb)),
+      ra, rb};
+  return stepDown(terms, limit, limit, a, b);
 }
 
 }  // namespace vox::HWY_NAMESPACE

@@ -113,43 +113,26 @@ void solve(const NewtonCell& cell, const Float3& shift, Feet& feet) {
   }
 }
 
-/// A step of Newton's method, as newtonStep, for a height; x in its frame.
+/// One step of Newton's method for a height (stepDown).
+/// @param x  in the frame of the height
 /// @return the larger change of a and b
 HWY_INLINE V heightStep(const Quartic<V>& height, const V3& x, const std::array<V, 2>& half, V& a,
                         V& b) {
   const V one = set(1);
   QuarticJetV jet;
   jetAt(height, a, b, jet);
-  const V ra = hn::Sub(x[0], a), rb = hn::Sub(x[1], b), rise = hn::Sub(x[2], jet.value);
-  const V gradientA = mulAdd(rise, jet.a, ra), gradientB = mulAdd(rise, jet.b, rb);
+  const V rise = hn::Sub(x[2], jet.value);
   const V twice = hn::Add(rise, rise);
   const V e = mulAdd(jet.a, jet.a, one), g = mulAdd(jet.b, jet.b, one), f = hn::Mul(jet.a, jet.b);
-  V haa = hn::Sub(e, hn::Mul(twice, jet.halfAa));
-  V hbb = hn::Sub(g, hn::Mul(twice, jet.halfBb));
-  V hab = hn::Sub(f, hn::Mul(rise, jet.ab));
-  V det = hn::Sub(hn::Mul(haa, hbb), hn::Mul(hab, hab));
-  const V detFlat = hn::Sub(hn::Mul(e, g), hn::Mul(f, f));
-  const auto safe =
-      hn::And(hn::Gt(det, hn::Mul(set(0.02F), detFlat)), hn::Gt(haa, hn::Mul(set(0.05F), e)));
-  haa = hn::IfThenElse(safe, haa, e);
-  hbb = hn::IfThenElse(safe, hbb, g);
-  hab = hn::IfThenElse(safe, hab, f);
-  det = hn::IfThenElse(safe, det, detFlat);
-  const auto within = [](V p, V most) { return hn::Min(hn::Max(p, hn::Neg(most)), most); };
-  const V tiny = set(1e-30F);
-  const V stepA = hn::Div(hn::Sub(hn::Mul(hbb, gradientA), hn::Mul(hab, gradientB)), det);
-  // Each parameter once more, given the other one within its limits.
-  V na = within(hn::Add(a, stepA), half[0]);
-  const V nb = within(
-      hn::Add(b, hn::Div(hn::Sub(gradientB, hn::Mul(hab, hn::Sub(na, a))), hn::Max(hbb, tiny))),
-      half[1]);
-  na = within(
-      hn::Add(a, hn::Div(hn::Sub(gradientA, hn::Mul(hab, hn::Sub(nb, b))), hn::Max(haa, tiny))),
-      half[0]);
-  const V change = hn::Max(hn::Abs(hn::Sub(na, a)), hn::Abs(hn::Sub(nb, b)));
-  a = na;
-  b = nb;
-  return change;
+  const DescentTerms terms = {e,
+                              f,
+                              g,
+                              hn::Sub(e, hn::Mul(twice, jet.halfAa)),
+                              hn::Sub(f, hn::Mul(rise, jet.ab)),
+                              hn::Sub(g, hn::Mul(twice, jet.halfBb)),
+                              mulAdd(rise, jet.a, hn::Sub(x[0], a)),
+                              mulAdd(rise, jet.b, hn::Sub(x[1], b))};
+  return stepDown(terms, half[0], half[1], a, b);
 }
 
 void solveHeight(const HeightCell& cell, const Float3& shift, Feet& feet) {
