@@ -100,7 +100,8 @@ struct BinnedCell {
   CellKind kind;
 };
 
-/// Cells that stay where they are while others are added, so that memory is never copied.
+/// Cells that stay where they are while others are added: a vector that grows would copy them, and
+/// hold twice their memory meanwhile.
 template <class Cell>
 using Cells = tbb::concurrent_vector<Cell>;
 

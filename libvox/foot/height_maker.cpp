@@ -13,15 +13,18 @@ namespace vox {
 void addHeightCell(const HeightPatch& patch, float reach, float newtonStop, std::uint32_t owner,
                    CellStore& store) {
   constexpr double kMargin = 0.05;  // voxels
+  // The part of a unit normal along an axis.
   const auto leanOf = [](double slope) { return slope / std::sqrt(1 + slope * slope); };
   const double tube = double{reach} + kMargin;
   const double sag = 0.2 * (patch.high - patch.low) + kMargin;
-  // Neighbours overlap a little. Where their normals are off, the feet of distant points are, too.
+  // Neighbours overlap a little. Where normals are off, so are the tubes; and tubes widen between
+  // the places where slopes were measured.
   const double overlap = std::min(0.02, 0.05 * std::min(patch.half[0], patch.half[1]));
-  const double widest = overlap + kSlopeOfStar * tube;
+  const double widest = overlap + kMostSlopeError * tube;
+  constexpr double kWider = 1.2;
   const std::array<double, 3> half = {
-      patch.half[0] + 1.2 * leanOf(patch.steepest[0]) * tube + widest,
-      patch.half[1] + 1.2 * leanOf(patch.steepest[1]) * tube + widest,
+      patch.half[0] + kWider * leanOf(patch.steepest[0]) * tube + widest,
+      patch.half[1] + kWider * leanOf(patch.steepest[1]) * tube + widest,
       (patch.high - patch.low) / 2 + sag + tube};
   const openvdb::Coord origin = openvdb::Coord::round(openvdb::Vec3d(patch.middle.data()));
   const Vec3d middle = patch.middle - Vec3d(origin.x(), origin.y(), origin.z());
@@ -56,8 +59,8 @@ void addHeightCell(const HeightPatch& patch, float reach, float newtonStop, std:
     cell.sides[k] = {static_cast<float>(x), static_cast<float>(y),
                      static_cast<float>(most + overlap)};
   }
-  cell.half = {static_cast<float>(patch.half[0] + widest),
-               static_cast<float>(patch.half[1] + widest)};
+  cell.half = {static_cast<float>(patch.half[0] + overlap),
+               static_cast<float>(patch.half[1] + overlap)};
   cell.stop = std::min(newtonStop, 0.05F * std::max(cell.half[0], cell.half[1]));
   store.bin(prism, owner, added - store.heights.begin(), CellKind::kHeight);
 }

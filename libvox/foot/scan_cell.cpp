@@ -162,13 +162,17 @@ void solveHeight(const HeightCell& cell, const Float3& shift, Feet& feet) {
     }
     // A foot beyond the sides is brought back: a neighbour has a nearer one, or the normals of both
     // are off a little.
+    auto inside = hn::And(hn::Lt(hn::Abs(a), half[0]), hn::Lt(hn::Abs(b), half[1]));
     for (std::size_t s = 0; s < cell.sideCount; ++s) {
       const auto& [sa, sb, most] = cell.sides[s];
       const V out = mulAdd(set(sa), a, mulAdd(set(sb), b, set(-most)));
       const V beyond = hn::Max(out, hn::Zero(d));
       a = hn::Sub(a, hn::Mul(set(sa), beyond));
       b = hn::Sub(b, hn::Mul(set(sb), beyond));
+      inside = hn::And(inside, hn::Le(out, hn::Zero(d)));
     }
+    a = hn::Min(hn::Max(a, hn::Neg(half[0])), half[0]);
+    b = hn::Min(hn::Max(b, hn::Neg(half[1])), half[1]);
     QuarticJetV jet;
     jetAt(height, a, b, jet);
     const V ra = hn::Sub(x[0], a), rb = hn::Sub(x[1], b), rise = hn::Sub(x[2], jet.value);
@@ -177,9 +181,8 @@ void solveHeight(const HeightCell& cell, const Float3& shift, Feet& feet) {
     const V r2 = mulAdd(ra, ra, mulAdd(rb, rb, hn::Mul(rise, rise)));
     // As in solve.
     const V t2 = hn::Div(hn::Mul(side, side), n2);
-    const auto inside = hn::And(hn::And(hn::Lt(hn::Abs(a), half[0]), hn::Lt(hn::Abs(b), half[1])),
-                                hn::Lt(hn::Sub(r2, t2), set(0.04F)));
-    const V distance = hn::Sqrt(hn::IfThenElse(inside, hn::Min(t2, r2), r2));
+    const auto near = hn::And(inside, hn::Lt(hn::Sub(r2, t2), set(0.04F)));
+    const V distance = hn::Sqrt(hn::IfThenElse(near, hn::Min(t2, r2), r2));
     hn::Store(hn::CopySign(distance, side), d, feet.t.data() + i);
     hn::Store(a, d, feet.a.data() + i);
     hn::Store(b, d, feet.b.data() + i);

@@ -218,8 +218,9 @@ void setExtent(HeightPatch& patch) {
 
 /// Whether the patch has nearly the normals of the surface at the limit points of the faces: those
 /// of the triangles.
+/// @param most  slope between them
 bool hasNormals(const TriangleStar& star, std::span<const FramePoint> points,
-                const HeightPatch& patch) {
+                const HeightPatch& patch, double most) {
   for (std::size_t k = 0; k < star.ring.size(); ++k) {
     const Vec3d normal =
         (star.ring[k] - star.centre).cross(star.ring[(k + 1) % star.ring.size()] - star.centre);
@@ -228,8 +229,7 @@ bool hasNormals(const TriangleStar& star, std::span<const FramePoint> points,
     const HeightSlope at = heightAt(patch.height, p.a, p.b);
     const double errorA = at.alongA / patch.half[0] * up + normal.dot(patch.axes[0]);
     const double errorB = at.alongB / patch.half[1] * up + normal.dot(patch.axes[1]);
-    if (!(up > 0 && errorA * errorA + errorB * errorB <= kSlopeOfStar * kSlopeOfStar * up * up))
-      return false;
+    if (!(up > 0 && errorA * errorA + errorB * errorB <= most * most * up * up)) return false;
   }
   return true;
 }
@@ -256,7 +256,10 @@ std::optional<HeightPatch> fitStar(const TriangleStar& star, double longest, dou
   if (!frame) return {};
   StarPoints limit(star, *frame);
   const Rectangle rectangle(limit.onBorder());
-  if (!(2 * std::max(rectangle.halfA, rectangle.halfB) <= longest)) return {};
+  constexpr double kLeastHalf = 0.01;  // voxels: terms of smaller ones are too large for floats
+  if (!(2 * std::max(rectangle.halfA, rectangle.halfB) <= longest &&
+        std::min(rectangle.halfA, rectangle.halfB) >= kLeastHalf))
+    return {};
   if (!runsAround(limit.vertex(), limit.onBorder()) ||
       !rectangle.isWithin(limit.vertex(), limit.around()))
     return {};
@@ -273,7 +276,8 @@ std::optional<HeightPatch> fitStar(const TriangleStar& star, double longest, dou
     if (i >= limit.within && std::max(std::abs(p.a), std::abs(p.b)) > kBeside) continue;
     if (!(std::abs(heightAt(patch.height, p.a, p.b).height - p.height) <= tolerance)) return {};
   }
-  if (!hasNormals(star, points, patch)) return {};
+  if (!hasNormals(star, points, patch, std::min(kMostSlopeError, kSlopeError * tolerance)))
+    return {};
   setExtent(patch);
   if (!(std::max(patch.steepest[0], patch.steepest[1]) <= kSteepest)) return {};
   setSides(points.first(limit.border), patch);

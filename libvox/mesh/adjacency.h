@@ -24,7 +24,7 @@ class CornerFaces {
   std::vector<Index> faces_;  // empty: triangles
 };
 
-/// Neighbours of the corners of a mesh; both arrays have one slot per corner.
+/// Neighbours of the corners of a mesh, by corner.
 struct Adjacency {
   std::vector<Index> twin;  ///< corner of the neighbouring face on the same edge, or kNone
   CornerFaces cornerFace;   ///< face of the corner

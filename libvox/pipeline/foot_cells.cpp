@@ -146,7 +146,8 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
   CellOptions cellOptions = options_;
   cellOptions.creases = !surface.base.seam.empty();
   const double mostTolerance = kPartOfSize * usedBox(surface.base.mesh).longestSide();
-  for (double* tolerance : {&cellOptions.tolerance.small, &cellOptions.tolerance.large})
+  for (double* tolerance :
+       {&cellOptions.tolerance.small, &cellOptions.tolerance.large, &cellOptions.heightTolerance})
     *tolerance = std::min(*tolerance, mostTolerance);
   const SubdivisionLevel& base = surface.base;
   const auto sinkOfThread = [&] {

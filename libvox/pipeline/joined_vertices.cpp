@@ -1,4 +1,4 @@
-// One piece in place of those of all corners at a vertex.
+// One piece or height in place of the pieces of all corners at a vertex.
 
 #include "libvox/pipeline/joined_vertices.h"
 
