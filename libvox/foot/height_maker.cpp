@@ -21,7 +21,7 @@ void addHeightCell(const HeightPatch& patch, float reach, float newtonStop, std:
   // the places where slopes were measured.
   const double overlap = std::min(0.02, 0.05 * std::min(patch.half[0], patch.half[1]));
   const double widest = overlap + kMostSlopeError * tube;
-  constexpr double kWider = 1.2;
+  constexpr double kWider = 1.2;  // than at 3 x 3 places; a voxel that all miss is a hole
   const std::array<double, 3> half = {
       patch.half[0] + kWider * leanOf(patch.steepest[0]) * tube + widest,
       patch.half[1] + kWider * leanOf(patch.steepest[1]) * tube + widest,

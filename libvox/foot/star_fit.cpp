@@ -145,6 +145,7 @@ struct Rectangle {
 
   /// Whether a polygon around a point in it holds it, nearly.
   bool isWithin(const FramePoint& centre, std::span<const FramePoint> polygon) const {
+    // Only the star counts; corners of the rectangle farther out may lack points around them.
     constexpr double kNearly = 1.3;
     for (const double a : {-1, 1})
       for (const double b : {-1, 1})
@@ -271,7 +272,7 @@ std::optional<HeightPatch> fitStar(const TriangleStar& star, double longest, dou
       {rectangle.halfA, rectangle.halfB},
       leastSquares(points)};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    constexpr double kBeside = 1.1;
+    constexpr double kBeside = 1.1;  // points farther out steady the fit, but need not be met
     const FramePoint& p = points[i];
     if (i >= limit.within && std::max(std::abs(p.a), std::abs(p.b)) > kBeside) continue;
     if (!(std::abs(heightAt(patch.height, p.a, p.b).height - p.height) <= tolerance)) return {};

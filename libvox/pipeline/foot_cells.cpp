@@ -61,12 +61,13 @@ bool addVertex(const JoinedVertices& vertices, std::span<const Index> corners, b
 /// @param skipped       for each face, whether it is left out
 /// @param sinkOfThread  makes the sink of a thread
 /// @param account       account(before, store): told how the memory of a store has grown
+/// @param part          the share of this in the current stage of `progress`
 /// @return for each corner, whether its vertex has been added
 template <class SinkOfThread, class Account>
 std::vector<std::uint8_t> addVertices(const SubdivisionLevel& base,
                                       const std::vector<std::uint8_t>& skipped, bool withHeights,
                                       const SinkOfThread& sinkOfThread, const Account& account,
-                                      const Progress& progress) {
+                                      Progress& progress, double part) {
   const JoinedVertices vertices(base);
   std::vector<std::uint8_t> added(base.mesh.cornerCount(), 0);
   tbb::enumerable_thread_specific<std::unique_ptr<PieceSink>> sinks(sinkOfThread);
@@ -83,6 +84,7 @@ std::vector<std::uint8_t> addVertices(const SubdivisionLevel& base,
       for (const Index corner : corners) added[corner] = 1;
     }
     account(before, sink.store);
+    progress.done(part * static_cast<double>(end - begin) / static_cast<double>(added.size()));
   });
   return added;
 }
@@ -156,15 +158,19 @@ void FootCells::addLimitSurface(const PreparedSurface& surface, const std::vecto
   std::vector<std::uint8_t> joined;  // by corner; empty: none
   std::vector<std::uint8_t> skipped = facesToSkip(base.mesh, faces, joined);
   if (!options_.places) {
+    constexpr double kPartOfVertices = 0.5;
     joined = addVertices(
         base, skipped, !filter, sinkOfThread,
-        [&](std::uint64_t before, const CellStore& store) { account(before, store); }, progress);
+        [&](std::uint64_t before, const CellStore& store) { account(before, store); }, progress,
+        kPartOfVertices * part);
+    part -= kPartOfVertices * part;
     skipped = facesToSkip(base.mesh, faces, joined);
   }
   Submeshes submeshes = cutIntoSubmeshes(base, surface.options, skipped);
   // A band needs all cells, unless it is told otherwise: sides of voxels follow from those of
   // others.
   skipFarFrom(options_.places ? surface.region : region_, double{options_.reach} + 1, submeshes);
+  if (submeshes.partition.size() == 0) return progress.done(part);
   struct Walk {
     std::unique_ptr<PieceSink> cells;
     OtherPieces others;

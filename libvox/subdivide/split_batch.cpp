@@ -32,6 +32,14 @@ HWY_INLINE SplitV quadImageOf(SplitV at, SplitV before, SplitV after, SplitV opp
                hn::Add(hn::Add(times(9, at), times(3, hn::Add(before, after))), opposite));
 }
 
+/// Images of the corners of the quad a, b, c, d.
+HWY_INLINE void imagesOfQuad(SplitV a, SplitV b, SplitV c, SplitV d, SplitV (&images)[4]) {
+  images[0] = quadImageOf(a, b, d, c);
+  images[1] = quadImageOf(b, a, c, d);
+  images[2] = quadImageOf(c, b, d, a);
+  images[3] = quadImageOf(d, a, c, b);
+}
+
 HWY_INLINE SplitV quarterOf(SplitV far, SplitV near) {
   return hn::Add(times(0.25, far), times(0.75, near));
 }
@@ -113,20 +121,9 @@ void splitVector(const SplitBatch& batch, std::size_t first, std::size_t count,
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto point = [&](B::Point k) HWY_ATTR { return load(batch.points[k][axis]); };
     const SplitV at = point(B::kAt);
-    const SplitV next = point(B::kNext);
-    const SplitV previous = point(B::kPrevious);
-    const SplitV right = point(B::kRight);
-    const SplitV rightFar = point(B::kRightFar);
-    const SplitV left = point(B::kLeft);
-    const SplitV leftFar = point(B::kLeftFar);
-    const SplitV r0 = quadImageOf(at, next, right, rightFar);
-    const SplitV r1 = quadImageOf(next, at, rightFar, right);
-    const SplitV r2 = quadImageOf(rightFar, next, right, at);
-    const SplitV r3 = quadImageOf(right, at, rightFar, next);
-    const SplitV l0 = quadImageOf(at, previous, left, leftFar);
-    const SplitV l1 = quadImageOf(previous, at, leftFar, left);
-    const SplitV l2 = quadImageOf(leftFar, previous, left, at);
-    const SplitV l3 = quadImageOf(left, at, leftFar, previous);
+    SplitV r[4], l[4];  // of level 2, in the quads R and L
+    imagesOfQuad(at, point(B::kNext), point(B::kRightFar), point(B::kRight), r);
+    imagesOfQuad(at, point(B::kPrevious), point(B::kLeftFar), point(B::kLeft), l);
     const SplitV f0 = point(B::kInF);
     const SplitV fNext = point(B::kNextInF);
     const SplitV fPrevious = point(B::kPreviousInF);
@@ -140,16 +137,17 @@ void splitVector(const SplitBatch& batch, std::size_t first, std::size_t count,
       child.at[axis] = centre;
       for (int i = 0; i < 4; ++i) child.children[i][axis] = children[i];
     };
-    splitCorner({{v0, l0, l1}, {r0, f0, fPrevious}, {r1, fNext, none}}, point(B::kDeepInF),
+    splitCorner({{v0, l[0], l[1]}, {r[0], f0, fPrevious}, {r[1], fNext, none}}, point(B::kDeepInF),
                 children, inF.size);
     keep(inF, f0);
-    splitCorner({{f0, r0, r3}, {l0, v0, vRight}, {l3, vLeft, none}}, point(B::kDeepInVFace),
+    splitCorner({{f0, r[0], r[3]}, {l[0], v0, vRight}, {l[3], vLeft, none}}, point(B::kDeepInVFace),
                 children, inVFace.size);
     keep(inVFace, v0);
-    splitRegular({{vRight, v0, l0}, {r3, r0, f0}, {r2, r1, fNext}}, children, inR.size);
-    keep(inR, r0);
-    splitRegular({{vLeft, l3, l2}, {v0, l0, l1}, {r0, f0, fPrevious}}, children, inL.size);
-    keep(inL, l0);
+    splitRegular({{vRight, v0, l[0]}, {r[3], r[0], f0}, {r[2], r[1], fNext}}, children, inR.size);
+    keep(inR, r[0]);
+    splitRegular({{vLeft, l[3], l[2]}, {v0, l[0], l[1]}, {r[0], f0, fPrevious}}, children,
+                 inL.size);
+    keep(inL, l[0]);
   }
 
   const SplitV span = hn::Set(d, kVertexConversionSpan);
